@@ -1,0 +1,26 @@
+# Languages, warnings and output folders that every target shares.
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "" FORCE)
+endif()
+# No fused multiply-add chosen by the compiler: the same source gives the same bits everywhere.
+add_compile_options(-ffp-contract=off -fno-math-errno -fstack-protector-strong)
+add_compile_definitions(_GNU_SOURCE)
+
+if(REACH_SANITIZE)
+  add_compile_options(-fsanitize=${REACH_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${REACH_SANITIZE})
+endif()
+
+# Warnings for our own sources; generated code and libraries are not ours to mend.
+add_library(reach_warnings INTERFACE)
+target_compile_options(reach_warnings INTERFACE
+  -Wall -Wextra -Werror -Wshadow -Wundef -Wpointer-arith -Wcast-qual -Wformat=2
+  $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes -Wmissing-prototypes -Wconversion -Wvla>
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)

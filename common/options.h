@@ -1,0 +1,85 @@
+/* A program's options: one table row each, read from YAML, overridden from the command line.
+ *
+ * The table is the only place that knows an option's name, unit, default, range and meaning; the
+ * manual and `--help-options` are printed from it. Values land in the fields of the program's own
+ * struct at the offset that the row names. Nested YAML maps become dotted names:
+ *     reach: {gain: 2.0}   is   reach.gain
+ * Unknown keys, wrong types, values out of range and doubled keys are errors that name the file,
+ * the line and the key. */
+#ifndef REACH_OPTIONS_H
+#define REACH_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define OPTION_MAX_LIST 16  /* longest list of numbers */
+#define OPTION_MAX_TEXT 256 /* longest text, with its terminator */
+
+enum option_type {
+    OPTION_BOOL,   /* field: bool */
+    OPTION_INT,    /* field: int */
+    OPTION_NUMBER, /* field: double */
+    OPTION_LIST,   /* field: struct option_list */
+    OPTION_TEXT,   /* field: char[OPTION_MAX_TEXT] */
+    OPTION_CHOICE, /* field: int, the index of the word in `choices` */
+};
+
+/* A list of numbers; `unit` and range hold for each entry. */
+struct option_list {
+    int n;
+    double value[OPTION_MAX_LIST];
+};
+
+/* One option. A unit of "deg" or "deg/s" or "deg/s2" is written in degrees by people and stored in
+ * radians; every other unit is stored as written. `initial` is the default, in the text that YAML
+ * would hold ("2.0", "[1, 2, 3]"); NULL means that the option must be given. `minimum` and
+ * `maximum` are in the unit that people write; both 0 means no range. */
+struct option {
+    const char *name;
+    enum option_type type;
+    size_t offset;
+    const char *unit;
+    const char *initial;
+    double minimum;
+    double maximum;
+    const char *help;
+    const char *choices; /* OPTION_CHOICE: the words, separated by '|' */
+};
+
+/* Ends a table. */
+#define OPTION_END {0}
+
+/* Fills `target` with the table's defaults, then with the YAML file `path` (NULL: no file), then
+ * with `n_overrides` texts "name=value". The struct is validated whole: on failure it is
+ * unspecified and must not be used.
+ *   returns 0, or -1 with one line in `error` ("etc/kobian.yaml:12: reach.gain: ..."). */
+int options_load(const struct option *table, void *target, const char *path,
+                 const char *const *overrides, int n_overrides, char *error, size_t error_size);
+
+/* Prints the table as a reference: name, unit, default, range, help. */
+void options_print(const struct option *table, FILE *out);
+
+/* For options_yaml.c and tests: sets one option from text. `items` texts of a list (or 1 scalar).
+ *   returns 0, or -1 with what is wrong (without file and key) in `error`. */
+int option_set(const struct option *row, void *target, const char *const *items, int n_items,
+               bool is_list, char *error, size_t error_size);
+
+/* The row of this name, or NULL. */
+const struct option *option_find(const struct option *table, const char *name);
+
+/* For options_yaml.c: reads a YAML document and calls `apply` for each leaf.
+ *   returns 0, or -1 with "path:line: key: reason" in `error`. */
+typedef int option_apply_fn(void *user, const char *name, const char *const *items, int n_items,
+                            bool is_list, char *error, size_t error_size);
+int options_read_yaml(const char *path, FILE *file, option_apply_fn *apply, void *user, char *error,
+                      size_t error_size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
