@@ -17,6 +17,9 @@ void log_open(const char *program, enum log_level least_important)
 }
 
 static void log_line(enum log_level level, const char *format, va_list arguments)
+    __attribute__((format(printf, 2, 0)));
+
+static void log_line(enum log_level level, const char *format, va_list arguments)
 {
     char line[1024];
     int start;

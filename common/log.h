@@ -8,7 +8,12 @@
 extern "C" {
 #endif
 
-enum log_level { LOG_LEVEL_ERROR = 3, LOG_LEVEL_WARNING = 4, LOG_LEVEL_INFO = 6, LOG_LEVEL_DEBUG = 7 };
+enum log_level {
+    LOG_LEVEL_ERROR = 3,
+    LOG_LEVEL_WARNING = 4,
+    LOG_LEVEL_INFO = 6,
+    LOG_LEVEL_DEBUG = 7
+};
 
 /* Names the program in front of every line and sets the least important level that is shown.
  * The string is kept, not copied. Under systemd (JOURNAL_STREAM set) lines start with the

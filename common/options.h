@@ -52,7 +52,10 @@ struct option {
 };
 
 /* Ends a table. */
-#define OPTION_END {0}
+#define OPTION_END                                                                                 \
+    {                                                                                              \
+        0                                                                                          \
+    }
 
 /* Fills `target` with the table's defaults, then with the YAML file `path` (NULL: no file), then
  * with `n_overrides` texts "name=value". The struct is validated whole: on failure it is
