@@ -1,0 +1,17 @@
+"""Prints our own sources in a compile_commands.json, one a line, each once (for clang-tidy)."""
+
+import json
+import sys
+from pathlib import Path
+
+
+def own_sources(commands_path: Path) -> list[str]:
+    """Paths relative to the project; what the build generates lies under build/ and is left out."""
+    root = Path(__file__).resolve().parent.parent
+    files = {Path(entry["file"]).resolve() for entry in json.loads(commands_path.read_text())}
+    inside = [file.relative_to(root) for file in files if file.is_relative_to(root)]
+    return sorted(str(file) for file in inside if file.parts[0] != "build")
+
+
+if __name__ == "__main__":
+    print("\n".join(own_sources(Path(sys.argv[1]))))
