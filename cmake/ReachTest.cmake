@@ -1,11 +1,44 @@
-# reach_unit_test(name SOURCES a.c ... LIBS x y): a Check program under ctest, label "unit".
+# reach_unit_test(name [NETNS | NO_ROUTE] SOURCES a.c ... LIBS x y): a Check program under ctest,
+# label "unit". NETNS runs it in a network namespace of its own where LCM works, NO_ROUTE in one
+# without the multicast route.
 pkg_check_modules(CHECK REQUIRED IMPORTED_TARGET check)
+set(REACH_TEST_ENVIRONMENT
+    "REACH_SOURCE_DIR=${CMAKE_SOURCE_DIR};REACH_BUILD_DIR=${CMAKE_BINARY_DIR}")
+
 function(reach_unit_test name)
-  cmake_parse_arguments(T "" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(T "NETNS;NO_ROUTE" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${T_SOURCES})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${T_LIBS} reach_warnings PkgConfig::CHECK)
-  add_test(NAME ${name} COMMAND ${name})
+  set(namespace "")
+  if(T_NETNS)
+    set(namespace ${CMAKE_SOURCE_DIR}/tools/netns.sh)
+  elseif(T_NO_ROUTE)
+    set(namespace ${CMAKE_SOURCE_DIR}/tools/netns.sh --no-route)
+  endif()
+  add_test(NAME ${name} COMMAND ${namespace} $<TARGET_FILE:${name}>)
   set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT 120
-    ENVIRONMENT "REACH_SOURCE_DIR=${CMAKE_SOURCE_DIR};REACH_BUILD_DIR=${CMAKE_BINARY_DIR}")
+    ENVIRONMENT "${REACH_TEST_ENVIRONMENT}")
+endfunction()
+
+# reach_python_test(name script.py LABEL unit|system [NETNS] [TIMEOUT seconds] [ARGS ...]): a
+# unittest script, run by the project's virtual environment where there is one.
+find_program(REACH_PYTHON python NAMES python3 PATHS ${CMAKE_SOURCE_DIR}/.venv/bin NO_DEFAULT_PATH)
+function(reach_python_test name script)
+  cmake_parse_arguments(T "NETNS" "LABEL;TIMEOUT" "ARGS" ${ARGN})
+  if(NOT REACH_PYTHON)
+    message(STATUS "No .venv: test ${name} is left out; ./run setup makes it")
+    return()
+  endif()
+  set(namespace "")
+  if(T_NETNS)
+    set(namespace ${CMAKE_SOURCE_DIR}/tools/netns.sh)
+  endif()
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 120)
+  endif()
+  add_test(NAME ${name}
+    COMMAND ${namespace} ${REACH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${T_ARGS})
+  set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} ENVIRONMENT
+    "${REACH_TEST_ENVIRONMENT};PYTHONPATH=${CMAKE_SOURCE_DIR}/tools:${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1")
 endfunction()

@@ -1,0 +1,161 @@
+"""Shows that tests can fail: puts one deliberate fault at a time into a copy of the tree and
+demands that the named test notices it.
+
+Each *.toml beside this file holds entries
+    [[mutation]]
+    name = "what is wrong then"
+    file = "daemon/x.c"
+    old = "text that occurs once in the file"
+    new = "text in its place"
+    killed_by = "ctest_name"
+    slow = true            # optional: only with --all
+"""
+
+import argparse
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Mutation:
+    name: str
+    file: str
+    old: str
+    new: str
+    killed_by: str
+    slow: bool = False
+
+
+class BadEntryError(Exception):
+    """An entry that no longer fits the tree."""
+
+
+def read_entries(folder: Path) -> list[Mutation]:
+    entries = []
+    for path in sorted(folder.glob("*.toml")):
+        for row in tomllib.loads(path.read_text()).get("mutation", []):
+            try:
+                entries.append(Mutation(**row))
+            except TypeError as error:
+                raise BadEntryError(f"{path.name}: {error}") from None
+    return entries
+
+
+def check_entry(mutation: Mutation, source: Path) -> None:
+    path = source / mutation.file
+    if not path.is_file():
+        raise BadEntryError(f"{mutation.name}: there is no {mutation.file}")
+    count = path.read_text().count(mutation.old)
+    if count != 1:
+        raise BadEntryError(f"{mutation.name}: {mutation.file} holds the old text {count} times")
+
+
+def copy_tree(source: Path, copy: Path) -> None:
+    """Brings the copy up to date; files that are the same keep their time, for short rebuilds."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=source, check=True, capture_output=True, text=True,
+    ).stdout.split("\0")  # fmt: skip
+    wanted = {name for name in listed if name and (source / name).is_file()}
+    for name in wanted:
+        target = copy / name
+        if not target.is_file() or target.read_bytes() != (source / name).read_bytes():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source / name, target)
+    for old in [
+        p for p in copy.rglob("*") if p.is_file() and str(p.relative_to(copy)) not in wanted
+    ]:
+        old.unlink()
+
+
+class Workshop:
+    """The copy of the tree and its build."""
+
+    def __init__(self, source: Path, work: Path):
+        self.copy, self.build = work / "source", work / "build"
+        work.mkdir(parents=True, exist_ok=True)
+        self.log = (work / "log.txt").open("w")
+        copy_tree(source, self.copy)
+        # -w: a fault may leave something unused, which is not what must notice it.
+        flags = [f"-DCMAKE_{language}_FLAGS=-O1 -w" for language in ("C", "CXX")]
+        self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
+                 "-DCMAKE_BUILD_TYPE=None", *flags)  # fmt: skip
+        command = ["ninja", "-C", self.build, "-t", "targets", "all"]
+        listing = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        self.targets = {line.split(":")[0] for line in listing.splitlines()}
+
+    def run(self, *command) -> bool:
+        self.log.write(f"$ {' '.join(map(str, command))}\n")
+        self.log.flush()
+        return subprocess.run(command, stdout=self.log, stderr=self.log).returncode == 0
+
+    def make(self, test: str) -> bool:
+        """Builds what the test needs: its own program, or everything for tests of processes."""
+        return self.run("ninja", "-C", self.build, test if test in self.targets else "all")
+
+    def passes(self, test: str) -> bool:
+        return self.run("ctest", "--test-dir", self.build, "-R", f"^{test}$", "--no-tests=error",
+                        "--output-on-failure")  # fmt: skip
+
+    def outcome(self, mutation: Mutation) -> str:
+        path = self.copy / mutation.file
+        original = path.read_text()
+        path.write_text(original.replace(mutation.old, mutation.new))
+        try:
+            if not self.make(mutation.killed_by):
+                return "does not compile"
+            return "SURVIVED" if self.passes(mutation.killed_by) else "killed"
+        finally:
+            path.write_text(original)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--source", type=Path, default=HERE.parent.parent)
+    parser.add_argument(
+        "--work", type=Path, required=True, help="folder for the copy and its build"
+    )
+    parser.add_argument("--all", action="store_true", help="the slow ones too")
+    parser.add_argument(
+        "--only", default="", help="only mutations whose name or file holds this text"
+    )
+    options = parser.parse_args()
+    try:
+        mutations = [
+            m for m in read_entries(options.source / "tests/mutations")
+            if (options.all or not m.slow) and options.only in m.name + " " + m.file
+        ]  # fmt: skip
+        for mutation in mutations:
+            check_entry(mutation, options.source)
+    except BadEntryError as error:
+        print(f"mutations: {error}", file=sys.stderr)
+        return 1
+    return try_all(Workshop(options.source, options.work), mutations)
+
+
+def try_all(shop: Workshop, mutations: list[Mutation]) -> int:
+    healthy = {}
+    for test in sorted({m.killed_by for m in mutations}):
+        healthy[test] = shop.make(test) and shop.passes(test)
+        if not healthy[test]:
+            print(f"mutations: {test} fails without any mutation, see {shop.log.name}")
+    killed = 0
+    for mutation in (m for m in mutations if healthy[m.killed_by]):
+        start = time.monotonic()
+        outcome = shop.outcome(mutation)
+        killed += outcome == "killed"
+        print(f"{outcome:8} {mutation.name} ({mutation.file}, {mutation.killed_by},"
+              f" {time.monotonic() - start:.1f} s)", flush=True)  # fmt: skip
+    print(f"mutations: {killed} of {len(mutations)} killed")
+    return 0 if killed == len(mutations) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
