@@ -1,11 +1,14 @@
 #include "common/bus.h"
 
+#include <arpa/inet.h>
 #include <reach_hello_t.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 #include <time.h>
+#include <unistd.h>
 
 static const char hello_channel[] = "REACH_HELLO";
 static const int self_test_ms = 500;
@@ -67,6 +70,35 @@ static bool carries_messages(lcm_t *lcm)
     return received;
 }
 
+/* Whether packets to the group of a "udpm://group:port" can leave at all. Asked before LCM, which
+ * would print a page of advice of its own. Other addresses are left to LCM. */
+static bool has_route(const char *url)
+{
+    char group[64];
+    struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons(7667)};
+    bool reachable;
+    int descriptor;
+
+    if (sscanf(url, "udpm://%63[0-9.]", group) != 1 ||
+        inet_pton(AF_INET, group, &address.sin_addr) != 1)
+        return true;
+    descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0)
+        return true;
+    reachable = connect(descriptor, (const struct sockaddr *)&address, sizeof address) == 0;
+    close(descriptor);
+    return reachable;
+}
+
+static lcm_t *no_route(const char *url, char *error, size_t error_size)
+{
+    snprintf(error, error_size,
+             "no message gets through %s: a multicast route is missing: ip link set lo multicast "
+             "on; ip route add 224.0.0.0/4 dev lo",
+             url);
+    return NULL;
+}
+
 lcm_t *bus_open(const char *url, char *error, size_t error_size)
 {
     const char *environment = getenv("LCM_DEFAULT_URL");
@@ -74,21 +106,16 @@ lcm_t *bus_open(const char *url, char *error, size_t error_size)
 
     if (!url || !*url)
         url = environment && *environment ? environment : BUS_DEFAULT_URL;
+    if (!has_route(url))
+        return no_route(url, error, error_size);
     lcm = lcm_create(url);
     if (!lcm) {
-        snprintf(error, error_size,
-                 "LCM cannot open %s; if the address is right, a multicast route is missing: ip "
-                 "link set lo multicast on; ip route add 224.0.0.0/4 dev lo",
-                 url);
+        snprintf(error, error_size, "LCM cannot open %s: is the address right?", url);
         return NULL;
     }
     if (!carries_messages(lcm)) {
-        snprintf(error, error_size,
-                 "no message comes back over %s: a multicast route is missing: ip link set lo "
-                 "multicast on; ip route add 224.0.0.0/4 dev lo",
-                 url);
         lcm_destroy(lcm);
-        return NULL;
+        return no_route(url, error, error_size);
     }
     return lcm;
 }
