@@ -1,0 +1,166 @@
+#include "tools/reachctl/client.h"
+
+#include "common/bus.h"
+#include "tools/reachctl/show.h"
+
+#include <lcm/lcm.h>
+#include <reach_sim_truth_t.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+struct client {
+    lcm_t *lcm;
+    bool has_status;
+    reach_status_t status;
+    int64_t simulator_done; /* newest sim_request_t.seq carried out */
+};
+
+static void on_status(const lcm_recv_buf_t *message, const char *channel,
+                      const reach_status_t *status, void *user)
+{
+    struct client *client = (struct client *)user;
+
+    (void)message;
+    (void)channel;
+    client->status = *status;
+    client->has_status = true;
+}
+
+static void on_truth(const lcm_recv_buf_t *message, const char *channel,
+                     const reach_sim_truth_t *truth, void *user)
+{
+    (void)message;
+    (void)channel;
+    ((struct client *)user)->simulator_done = truth->request_seq;
+}
+
+struct client *client_create(const char *url, char *error, size_t error_size)
+{
+    lcm_t *lcm = bus_open(url, error, error_size);
+    struct client *client;
+
+    if (!lcm)
+        return NULL;
+    client = calloc(1, sizeof *client);
+    if (!client) {
+        snprintf(error, error_size, "out of memory");
+        lcm_destroy(lcm);
+        return NULL;
+    }
+    client->lcm = lcm;
+    reach_status_t_subscribe(lcm, "REACH_STATUS", on_status, client);
+    reach_sim_truth_t_subscribe(lcm, "SIM_TRUTH", on_truth, client);
+    return client;
+}
+
+void client_destroy(struct client *client)
+{
+    if (!client)
+        return;
+    lcm_destroy(client->lcm);
+    free(client);
+}
+
+/* Handles messages for at most this long. Returns false when the time is over. */
+static bool handle_before(struct client *client, int64_t deadline)
+{
+    int64_t left = deadline - bus_monotonic_us();
+
+    return left > 0 && lcm_handle_timeout(client->lcm, (int)(left / 1000) + 1) >= 0;
+}
+
+static int64_t deadline_after(double seconds)
+{
+    return bus_monotonic_us() + (int64_t)(seconds * 1e6);
+}
+
+const reach_status_t *client_status(struct client *client, double timeout)
+{
+    int64_t deadline = deadline_after(timeout);
+
+    client->has_status = false;
+    while (!client->has_status)
+        if (!handle_before(client, deadline))
+            return NULL;
+    return &client->status;
+}
+
+static int no_daemon(double timeout, char *error, size_t error_size)
+{
+    snprintf(error, error_size,
+             "no answer from reachd in %g s: it does not run, or no robot state reaches it",
+             timeout);
+    return -1;
+}
+
+/* Every call has a number of its own: microseconds of the clock are never the same twice. */
+static int64_t fresh_seq(void)
+{
+    return bus_utime();
+}
+
+int client_ask_daemon(struct client *client, reach_request_t *request, double timeout, char *error,
+                      size_t error_size)
+{
+    int64_t deadline = deadline_after(timeout);
+    const reach_status_t *status;
+
+    request->utime = bus_utime();
+    request->seq = fresh_seq();
+    reach_request_t_publish(client->lcm, "REACH_REQUEST", request);
+    do {
+        status = client_status(client, (double)(deadline - bus_monotonic_us()) * 1e-6);
+        if (!status)
+            return no_daemon(timeout, error, error_size);
+    } while (status->request_seq != request->seq ||
+             status->request_result == REACH_STATUS_T_PENDING);
+    if (status->request_result == REACH_STATUS_T_ACCEPTED)
+        return 0;
+    snprintf(error, error_size, "reachd: %s", show_result(status->request_result));
+    return -1;
+}
+
+int client_tell_simulator(struct client *client, reach_sim_request_t *request)
+{
+    request->utime = bus_utime();
+    request->seq = fresh_seq();
+    return reach_sim_request_t_publish(client->lcm, "SIM_REQUEST", request);
+}
+
+int client_ask_simulator(struct client *client, reach_sim_request_t *request, double timeout,
+                         char *error, size_t error_size)
+{
+    int64_t deadline = deadline_after(timeout);
+
+    client_tell_simulator(client, request);
+    while (client->simulator_done != request->seq)
+        if (!handle_before(client, deadline)) {
+            snprintf(error, error_size,
+                     "no answer from simrobot in %g s: it does not run, runs with --no-truth, or "
+                     "refused the request (see its log)",
+                     timeout);
+            return -1;
+        }
+    return 0;
+}
+
+int client_follow(struct client *client, const reach_request_t *request, double timeout,
+                  char *error, size_t error_size)
+{
+    for (;;) {
+        const reach_status_t *status = client_status(client, timeout);
+        if (!status)
+            return no_daemon(timeout, error, error_size);
+        if (status->request_seq != request->seq) {
+            snprintf(error, error_size, "another request has replaced this one");
+            return -1;
+        }
+        if (status->state == REACH_STATUS_T_FAULT) {
+            snprintf(error, error_size, "reachd is in its fault state; reachctl reset-fault");
+            return -1;
+        }
+        show_progress(status, status->behaviour == REACH_STATUS_T_NONE);
+        if (status->behaviour == REACH_STATUS_T_NONE)
+            return 0;
+    }
+}

@@ -1,0 +1,170 @@
+#include "tools/reachctl/show.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <unistd.h>
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
+static const char *const behaviours[] = {"none", "babble", "coordinate", "reach"};
+static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
+static const char *const results[] = {"accepted", "refused, not in this state",
+                                      "refused, a value is out of range", "pending",
+                                      "failed, see its log"};
+
+static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
+static_assert(COUNT(behaviours) == REACH_STATUS_T_REACH + 1, "a name for each behaviour");
+static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");
+static_assert(COUNT(results) == REACH_STATUS_T_FAILED + 1, "a name for each result");
+
+static const char *word(const char *const *names, size_t n, int index)
+{
+    return index >= 0 && (size_t)index < n ? names[index] : "unknown";
+}
+
+const char *show_result(int result)
+{
+    return word(results, COUNT(results), result);
+}
+
+static const char *state_word(const reach_status_t *status)
+{
+    return word(states, COUNT(states), status->state);
+}
+
+static const char *behaviour_word(const reach_status_t *status)
+{
+    return word(behaviours, COUNT(behaviours), status->behaviour);
+}
+
+static const char *phase_word(const reach_status_t *status)
+{
+    return word(phases, COUNT(phases), status->phase);
+}
+
+void show_text(const reach_status_t *status, FILE *out)
+{
+    fprintf(out, "state      %s, behaviour %s, phase %s\n", state_word(status),
+            behaviour_word(status), phase_word(status));
+    fprintf(out, "progress   %d of %d, %d given up; error %.1f px\n", status->progress,
+            status->progress_total, status->skipped, status->error_px);
+    fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
+            status->fixated ? ", fixated" : "");
+    fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d\n",
+            (long long)status->samples, status->experts, status->solutions, status->solution);
+    fprintf(out,
+            "tick       %lld; %.0f us now, %.0f mean, %.0f p99.9, %.0f largest; wake-up %.0f\n",
+            (long long)status->seq, status->compute_us, status->compute_mean_us,
+            status->compute_p999_us, status->compute_max_us, status->wakeup_us);
+    fprintf(out,
+            "trouble    %lld overruns, %lld slips, %lld bad inputs, %lld gated, %lld dropped\n",
+            (long long)status->overruns, (long long)status->slips, (long long)status->bad_inputs,
+            (long long)status->gated, (long long)status->dropped_samples);
+    fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
+            (long long)status->request_seq, show_result(status->request_result));
+}
+
+enum field_type { FIELD_INT8, FIELD_INT32, FIELD_INT64, FIELD_DOUBLE };
+
+static const struct field {
+    const char *name;
+    enum field_type type;
+    size_t offset;
+} fields[] = {
+#define FIELD(name, type)                                                                          \
+    {                                                                                              \
+#name, type, offsetof(reach_status_t, name)                                                \
+    }
+    FIELD(utime, FIELD_INT64),
+    FIELD(seq, FIELD_INT64),
+    FIELD(state_seq, FIELD_INT64),
+    FIELD(request_seq, FIELD_INT64),
+    FIELD(progress, FIELD_INT32),
+    FIELD(progress_total, FIELD_INT32),
+    FIELD(skipped, FIELD_INT32),
+    FIELD(marker_seen, FIELD_INT8),
+    FIELD(fixated, FIELD_INT8),
+    FIELD(error_px, FIELD_DOUBLE),
+    FIELD(samples, FIELD_INT64),
+    FIELD(experts, FIELD_INT32),
+    FIELD(solutions, FIELD_INT32),
+    FIELD(solution, FIELD_INT32),
+    FIELD(compute_us, FIELD_DOUBLE),
+    FIELD(compute_mean_us, FIELD_DOUBLE),
+    FIELD(compute_p999_us, FIELD_DOUBLE),
+    FIELD(compute_max_us, FIELD_DOUBLE),
+    FIELD(wakeup_us, FIELD_DOUBLE),
+    FIELD(overruns, FIELD_INT64),
+    FIELD(slips, FIELD_INT64),
+    FIELD(queue, FIELD_INT32),
+    FIELD(dropped_samples, FIELD_INT64),
+    FIELD(bad_inputs, FIELD_INT64),
+    FIELD(gated, FIELD_INT64),
+    FIELD(staleness, FIELD_DOUBLE),
+#undef FIELD
+};
+
+/* JSON has no infinity and no NaN. */
+static void print_number(double value, FILE *out)
+{
+    if (isfinite(value))
+        fprintf(out, "%.17g", value);
+    else
+        fputs("null", out);
+}
+
+static void print_field(const reach_status_t *status, const struct field *field, FILE *out)
+{
+    const void *at = (const char *)status + field->offset;
+
+    switch (field->type) {
+    case FIELD_INT8:
+        fprintf(out, "%d", *(const int8_t *)at);
+        break;
+    case FIELD_INT32:
+        fprintf(out, "%d", *(const int32_t *)at);
+        break;
+    case FIELD_INT64:
+        fprintf(out, "%lld", (long long)*(const int64_t *)at);
+        break;
+    case FIELD_DOUBLE:
+        print_number(*(const double *)at, out);
+        break;
+    }
+}
+
+static void print_list(const char *name, const double *values, int n, FILE *out)
+{
+    fprintf(out, ", \"%s\": [", name);
+    for (int i = 0; i < n && i < 8; i++) {
+        fputs(i ? ", " : "", out);
+        print_number(values[i], out);
+    }
+    fputc(']', out);
+}
+
+void show_json(const reach_status_t *status, FILE *out)
+{
+    fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", state_word(status),
+            behaviour_word(status), phase_word(status));
+    fprintf(out, ", \"request_result\": \"%s\"", show_result(status->request_result));
+    for (size_t i = 0; i < COUNT(fields); i++) {
+        fprintf(out, ", \"%s\": ", fields[i].name);
+        print_field(status, &fields[i], out);
+    }
+    print_list("x_predicted", status->x_predicted, status->n_outputs, out);
+    print_list("x_estimated", status->x_estimated, status->n_outputs, out);
+    fputs("}\n", out);
+}
+
+void show_progress(const reach_status_t *status, bool last)
+{
+    if (!isatty(STDERR_FILENO))
+        return;
+    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f px\033[K%s",
+            behaviour_word(status), phase_word(status), status->progress, status->progress_total,
+            status->skipped, status->experts, status->error_px, last ? "\n" : "");
+}

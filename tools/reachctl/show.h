@@ -1,0 +1,21 @@
+/* A status in words, as JSON, and as a progress line. */
+#ifndef REACHCTL_SHOW_H
+#define REACHCTL_SHOW_H
+
+#include <reach_status_t.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+/* For people: a few lines. */
+void show_text(const reach_status_t *status, FILE *out);
+
+/* For programs: one JSON object with the fields of status_t, states as words. */
+void show_json(const reach_status_t *status, FILE *out);
+
+/* Rewrites one line on stderr, where that is a terminal; `last` ends it. */
+void show_progress(const reach_status_t *status, bool last);
+
+/* What a request_result means. */
+const char *show_result(int result);
+
+#endif
