@@ -1,4 +1,4 @@
-#include "arena.h"
+#include "daemon/arena.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,14 +10,16 @@ struct arena {
     size_t used;
 };
 
-size_t arena_footprint(size_t bytes) {
+size_t arena_footprint(size_t bytes)
+{
     if (bytes > SIZE_MAX - (ARENA_ALIGNMENT - 1)) {
         return SIZE_MAX;
     }
     return (bytes + ARENA_ALIGNMENT - 1) / ARENA_ALIGNMENT * ARENA_ALIGNMENT;
 }
 
-struct arena *arena_create(size_t bytes) {
+struct arena *arena_create(size_t bytes)
+{
     size_t size = arena_footprint(bytes > 0 ? bytes : 1);
     if (size == SIZE_MAX) {
         return NULL;
@@ -37,14 +39,16 @@ struct arena *arena_create(size_t bytes) {
     return arena;
 }
 
-void arena_destroy(struct arena *arena) {
+void arena_destroy(struct arena *arena)
+{
     if (arena) {
         free(arena->base);
         free(arena);
     }
 }
 
-void *arena_alloc(struct arena *arena, size_t bytes) {
+void *arena_alloc(struct arena *arena, size_t bytes)
+{
     size_t need = arena_footprint(bytes);
     if (need > arena->size - arena->used) {
         return NULL;
@@ -54,10 +58,12 @@ void *arena_alloc(struct arena *arena, size_t bytes) {
     return block;
 }
 
-size_t arena_used(const struct arena *arena) {
+size_t arena_used(const struct arena *arena)
+{
     return arena->used;
 }
 
-size_t arena_size(const struct arena *arena) {
+size_t arena_size(const struct arena *arena)
+{
     return arena->size;
 }

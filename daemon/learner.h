@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "arena.h"
+#include "daemon/arena.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -50,40 +50,40 @@ struct learner_config {
     int n_outputs;          /* D, 1 .. LEARNER_MAX_OUTPUTS */
     int capacity;           /* most experts, >= 1; default 256 */
 
-    enum learner_features features; /* LEARNER_LINEAR */
-    int degree;                     /* of the polynomial, 1 .. 6; 3 */
+    enum learner_features features;       /* LEARNER_LINEAR */
+    int degree;                           /* of the polynomial, 1 .. 6; 3 */
     double reference[LEARNER_MAX_INPUTS]; /* c, middle of the range; 0 */
-    double scale[LEARNER_MAX_INPUTS]; /* s, > 0, features see (z-c)/s; 1 */
+    double scale[LEARNER_MAX_INPUTS];     /* s, > 0, features see (z-c)/s; 1 */
 
     double psi0[LEARNER_MAX_OUTPUTS];  /* Psi0, VARIANCE of an output, > 0 */
     double sigma0[LEARNER_MAX_INPUTS]; /* VARIANCE of an expert's inputs, > 0 */
-    double alpha;       /* forgetting exponent, 0.5 .. 1 (none); 0.999 */
-    double hyper_sigma; /* w_sigma, strength of sigma0, or INFINITY; 2^d */
-    double hyper_psi;   /* w_psi, strength of psi0, or INFINITY; 2 D */
-    double prior_sigma; /* w_Sigma, an expert's input prior, >= d; 2^d */
-    double prior_nu;    /* w_nu, prior on an expert's centre, >= 0; 0 */
-    double prior_psi;   /* w_Psi, an expert's noise prior, or INFINITY; 2^d */
-    double ridge;       /* w_Lambda, prior on the slopes, > 0; 0.1 */
-    double prior_floor; /* least share of the last four left by forgetting;
-                           0.01 (prior_sigma also never under d) */
+    double alpha;                      /* forgetting exponent, 0.5 .. 1 (none); 0.999 */
+    double hyper_sigma;                /* w_sigma, strength of sigma0, or INFINITY; 2^d */
+    double hyper_psi;                  /* w_psi, strength of psi0, or INFINITY; 2 D */
+    double prior_sigma;                /* w_Sigma, an expert's input prior, >= d; 2^d */
+    double prior_nu;                   /* w_nu, prior on an expert's centre, >= 0; 0 */
+    double prior_psi;                  /* w_Psi, an expert's noise prior, or INFINITY; 2^d */
+    double ridge;                      /* w_Lambda, prior on the slopes, > 0; 0.1 */
+    double prior_floor;                /* least share of the last four left by forgetting;
+                                          0.01 (prior_sigma also never under d) */
 
-    int n_outliers;  /* outliers in a row dropped before a birth, >= 0; 1 */
-    double p0;       /* outlier probability, 0 .. 1; 0.1 */
-    bool inherit;    /* a newborn starts from its parent's slopes; false */
-    double skip;     /* responsibilities under this are not learned, 0 .. 0.1;
-                        an expert misses less than this a sample; 1e-6 */
+    int n_outliers; /* outliers in a row dropped before a birth, >= 0; 1 */
+    double p0;      /* outlier probability, 0 .. 1; 0.1 */
+    bool inherit;   /* a newborn starts from its parent's slopes; false */
+    double skip;    /* responsibilities under this are not learned, 0 .. 0.1;
+                       an expert misses less than this a sample; 1e-6 */
 
-    int n_solutions_max; /* 1 .. LEARNER_MAX_SOLUTIONS; 16 */
+    int n_solutions_max;                /* 1 .. LEARNER_MAX_SOLUTIONS; 16 */
     enum learner_clustering clustering; /* LEARNER_CLUSTER_PUBLISHED */
-    double significance; /* level of the two splitting rules, 0 .. 1; 0.99 */
-    double leader_level; /* level of the leader rule, 0 .. 1; 0.9 */
-    double kappa; /* exponent of distance in SPLIT and LEADER, 0 .. 1; 0.5 */
-    int em_pred_iterations; /* of the splitting rules, 0 .. 100; 2 */
-    double gamma_floor;     /* g0: an expert's uncertainty counts as at least
-                               this when experts are averaged; 0 = as
-                               published; 0 */
-    bool average_jacobian; /* weighted mean of slopes instead of the exact
-                              derivative of the prediction; false */
+    double significance;                /* level of the two splitting rules, 0 .. 1; 0.99 */
+    double leader_level;                /* level of the leader rule, 0 .. 1; 0.9 */
+    double kappa;                       /* exponent of distance in SPLIT and LEADER, 0 .. 1; 0.5 */
+    int em_pred_iterations;             /* of the splitting rules, 0 .. 100; 2 */
+    double gamma_floor;                 /* g0: an expert's uncertainty counts as at least
+                                           this when experts are averaged; 0 = as
+                                           published; 0 */
+    bool average_jacobian;              /* weighted mean of slopes instead of the exact
+                                           derivative of the prediction; false */
 };
 
 /* All defaults for these dimensions; psi0 and sigma0 are left at zero. */
@@ -91,8 +91,7 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs);
 
 /* 0 when every row is in range; otherwise -1, with one line in err that names
  * the row and its range. */
-int learner_config_check(const struct learner_config *config, char *err,
-                         size_t err_size);
+int learner_config_check(const struct learner_config *config, char *err, size_t err_size);
 
 /* Bytes that learner_create() takes from the arena; 0 for a configuration
  * that learner_config_check() refuses. */
@@ -103,8 +102,7 @@ struct learner;
 /* A learner that knows nothing. It lives as long as the arena. The
  * configuration is copied. Returns NULL, with one line in err, when a row is
  * out of range or the arena too small (some of it is then lost). */
-struct learner *learner_create(const struct learner_config *config,
-                               struct arena *arena, char *err,
+struct learner *learner_create(const struct learner_config *config, struct arena *arena, char *err,
                                size_t err_size);
 
 enum learner_update_result {
@@ -117,8 +115,8 @@ enum learner_update_result {
 
 /* Learns one sample: z[n_inputs] -> x[n_outputs]. Only LEARNER_UPDATED and
  * LEARNER_BORN change what is predicted. */
-enum learner_update_result learner_update(struct learner *learner,
-                                          const double *z, const double *x);
+enum learner_update_result learner_update(struct learner *learner, const double *z,
+                                          const double *x);
 
 /* One value of the map at the query. */
 struct learner_solution {
@@ -184,8 +182,8 @@ size_t learner_save(const struct learner *learner, void *buffer, size_t size);
  * when the bytes are damaged, of another version, of other dimensions or
  * parameters (capacity may differ), or have more experts than fit; the state
  * is then as before. */
-int learner_load(struct learner *learner, const void *buffer, size_t size,
-                 char *err, size_t err_size);
+int learner_load(struct learner *learner, const void *buffer, size_t size, char *err,
+                 size_t err_size);
 
 #ifdef __cplusplus
 }

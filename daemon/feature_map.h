@@ -1,0 +1,43 @@
+/* What an expert is linear in: a vector of features phi of the input, behind a small table of
+ * functions. The constant is left out: experts are centred, so it needs no coefficient.
+ *
+ * u = (z - reference) / scale, one number an input.
+ *   linear:      phi = u
+ *   polynomial:  phi_a = prod_i u_i^a_i / a_i!  for 1 <= |a| <= degree
+ * The factorials let one ridge serve all orders (a Taylor series of an amplitude that stays the
+ * same with the order). */
+#ifndef REACH_FEATURE_MAP_H
+#define REACH_FEATURE_MAP_H
+
+#include "daemon/arena.h"
+#include "daemon/learner.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Most features of a map: more would not fit a control tick. */
+#define FEATURE_MAP_MAX 1024
+
+struct feature_map;
+
+/* Features of the map that `config` describes; 0 when they would be over FEATURE_MAP_MAX. */
+int feature_map_count(const struct learner_config *config);
+
+/* Bytes that feature_map_create() takes from the arena. */
+size_t feature_map_memory(const struct learner_config *config);
+
+/* A map that lives in the arena, or NULL when the arena is exhausted. feature_map_count() of the
+ * configuration must not be 0. */
+struct feature_map *feature_map_create(const struct learner_config *config, struct arena *arena);
+
+/* phi[count] at z[n_inputs]. */
+void feature_map_evaluate(const struct feature_map *map, const double *z, double *phi);
+
+/* d phi / d z at the input whose features are phi: dphi[count * n_inputs], row-major. */
+void feature_map_derivative(const struct feature_map *map, const double *phi, double *dphi);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

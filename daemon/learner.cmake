@@ -1,0 +1,24 @@
+# The learner, a library of its own: the daemon, the benches and the tests link it.
+add_library(reach_learner STATIC
+  ${CMAKE_CURRENT_LIST_DIR}/arena.c
+  ${CMAKE_CURRENT_LIST_DIR}/learner.c
+  ${CMAKE_CURRENT_LIST_DIR}/learner_config.c
+  ${CMAKE_CURRENT_LIST_DIR}/learner_null.c
+  ${CMAKE_CURRENT_LIST_DIR}/feature_map.c
+  ${CMAKE_CURRENT_LIST_DIR}/feature_polynomial.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_layout.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_expert.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_density.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_priors.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_learn.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_predict.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_split.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_leader.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_fuse.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_inverse.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_store.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_chi2.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_triangle.c)
+target_include_directories(reach_learner PUBLIC ${CMAKE_SOURCE_DIR})
+target_link_libraries(reach_learner PRIVATE reach_warnings PUBLIC m)

@@ -1,0 +1,173 @@
+/* The learner's parameters: defaults, ranges, and the hash that ties a saved state to them. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "daemon/learner_private.h"
+
+struct learner_config learner_config_default(int n_inputs, int n_outputs)
+{
+    double two_to_d = ldexp(1.0, n_inputs);
+    struct learner_config config = {
+        .kind = LEARNER_IMLE,
+        .n_inputs = n_inputs,
+        .n_outputs = n_outputs,
+        .capacity = 256,
+        .features = LEARNER_LINEAR,
+        .degree = 3,
+        .alpha = 0.999,
+        .hyper_sigma = two_to_d,
+        .hyper_psi = 2.0 * n_outputs,
+        .prior_sigma = two_to_d,
+        .prior_psi = two_to_d,
+        .ridge = 0.1,
+        .prior_floor = 0.01,
+        .n_outliers = 1,
+        .p0 = 0.1,
+        .skip = 1e-6,
+        .n_solutions_max = LEARNER_MAX_SOLUTIONS,
+        .clustering = LEARNER_CLUSTER_PUBLISHED,
+        .significance = 0.99,
+        .leader_level = 0.9,
+        .kappa = 0.5,
+        .em_pred_iterations = 2,
+    };
+
+    for (int i = 0; i < LEARNER_MAX_INPUTS; i++)
+        config.scale[i] = 1.0;
+    return config;
+}
+
+/* A row and the range that its number must be in. Written so that NaN is refused. */
+struct range {
+    const char *name;
+    double value;
+    double minimum;
+    double maximum;
+};
+
+static int check_ranges(const struct range *ranges, size_t n, char *err, size_t err_size)
+{
+    for (size_t i = 0; i < n; i++) {
+        const struct range *r = &ranges[i];
+        if (r->value >= r->minimum && r->value <= r->maximum)
+            continue;
+        snprintf(err, err_size, "%s is %g: must be between %g and %g", r->name, r->value,
+                 r->minimum, r->maximum);
+        return -1;
+    }
+    return 0;
+}
+
+#define CHECK_RANGES(ranges, err, err_size)                                                        \
+    check_ranges(ranges, sizeof(ranges) / sizeof((ranges)[0]), err, err_size)
+
+static int check_dimensions(const struct learner_config *config, char *err, size_t err_size)
+{
+    const struct range ranges[] = {
+        {"kind", (int)config->kind, LEARNER_IMLE, LEARNER_NULL},
+        {"n_inputs", config->n_inputs, 1, LEARNER_MAX_INPUTS},
+        {"n_outputs", config->n_outputs, 1, LEARNER_MAX_OUTPUTS},
+        {"capacity", config->capacity, 1, 65536},
+        {"features", (int)config->features, LEARNER_LINEAR, LEARNER_POLYNOMIAL},
+        {"degree", config->degree, 1, 6},
+    };
+
+    return CHECK_RANGES(ranges, err, err_size);
+}
+
+static int check_scales(const struct learner_config *config, char *err, size_t err_size)
+{
+    for (int i = 0; i < config->n_inputs; i++) {
+        const struct range ranges[] = {
+            {"reference", config->reference[i], -LEARNER_LARGEST_NUMBER, LEARNER_LARGEST_NUMBER},
+            {"scale", config->scale[i], 1e-9, LEARNER_LARGEST_NUMBER},
+            {"sigma0", config->sigma0[i], 1e-12, 1e12},
+        };
+        if (CHECK_RANGES(ranges, err, err_size) != 0)
+            return -1;
+    }
+    for (int i = 0; i < config->n_outputs; i++) {
+        const struct range range = {"psi0", config->psi0[i], 1e-12, 1e12};
+        if (check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_learning(const struct learner_config *config, char *err, size_t err_size)
+{
+    const struct range ranges[] = {
+        {"alpha", config->alpha, 0.9, 1.0},
+        {"hyper_sigma", config->hyper_sigma, 1e-3, INFINITY},
+        {"hyper_psi", config->hyper_psi, 1e-3, INFINITY},
+        {"prior_sigma", config->prior_sigma, config->n_inputs, 1e9},
+        {"prior_nu", config->prior_nu, 0.0, 1e9},
+        {"prior_psi", config->prior_psi, 1e-9, INFINITY},
+        {"ridge", config->ridge, 1e-12, 1e9},
+        {"prior_floor", config->prior_floor, 1e-9, 1.0},
+        {"n_outliers", config->n_outliers, 0, 1000},
+        {"p0", config->p0, 1e-9, 1.0 - 1e-9},
+        {"skip", config->skip, 0.0, 0.1},
+    };
+
+    return CHECK_RANGES(ranges, err, err_size);
+}
+
+static int check_prediction(const struct learner_config *config, char *err, size_t err_size)
+{
+    const struct range ranges[] = {
+        {"n_solutions_max", config->n_solutions_max, 1, LEARNER_MAX_SOLUTIONS},
+        {"clustering", (int)config->clustering, LEARNER_CLUSTER_PUBLISHED, LEARNER_CLUSTER_LEADER},
+        {"significance", config->significance, 0.0, 1.0},
+        {"leader_level", config->leader_level, 0.0, 1.0 - 1e-9},
+        {"kappa", config->kappa, 0.0, 1.0},
+        {"em_pred_iterations", config->em_pred_iterations, 0, 100},
+        {"gamma_floor", config->gamma_floor, 0.0, 1e6},
+    };
+
+    return CHECK_RANGES(ranges, err, err_size);
+}
+
+int learner_config_check(const struct learner_config *config, char *err, size_t err_size)
+{
+    if (check_dimensions(config, err, err_size) != 0 || check_scales(config, err, err_size) != 0 ||
+        check_learning(config, err, err_size) != 0 || check_prediction(config, err, err_size) != 0)
+        return -1;
+    return learner_ops_of(config->kind)->check(config, err, err_size);
+}
+
+uint64_t learner_hash(uint64_t hash, const void *bytes, size_t n)
+{
+    const unsigned char *byte = bytes;
+
+    for (size_t i = 0; i < n; i++)
+        hash = (hash ^ byte[i]) * 1099511628211ULL;
+    return hash;
+}
+
+uint64_t learner_config_hash(const struct learner_config *config)
+{
+    const double numbers[] = {
+        (int)config->kind,
+        config->n_inputs,
+        config->n_outputs,
+        (int)config->features,
+        config->features == LEARNER_POLYNOMIAL ? config->degree : 1,
+        config->alpha,
+        config->hyper_sigma,
+        config->hyper_psi,
+        config->prior_sigma,
+        config->prior_nu,
+        config->prior_psi,
+        config->ridge,
+        config->prior_floor,
+    };
+    uint64_t hash = learner_hash(LEARNER_HASH_START, numbers, sizeof numbers);
+    size_t inputs = (size_t)config->n_inputs * sizeof(double);
+
+    hash = learner_hash(hash, config->reference, inputs);
+    hash = learner_hash(hash, config->scale, inputs);
+    hash = learner_hash(hash, config->sigma0, inputs);
+    return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
+}

@@ -1,0 +1,194 @@
+/* The textbook mixture: predictions, clusters, Jacobians. */
+#include <algorithm>
+#include <cmath>
+
+#include "tests/oracle/textbook_chi2.h"
+#include "tests/oracle/textbook_imle.h"
+
+namespace oracle
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TextbookImle::Answer TextbookImle::answer(const Expert &e, const VectorXd &z) const
+{
+    Answer r;
+    MatrixXd precision = e.Sigma.inverse();
+    MatrixXd C_inverse = inverse_C(e);
+    VectorXd dz = z - e.nu;
+    VectorXd from_mean = z - e.S_z / e.S_h;
+    double dof = e.w_Sigma + e.S_h - p_.d + 1;
+    double a = (e.w_nu + e.S_h + 1) / (e.w_nu + e.S_h) * sigma_divisor(e);
+    double q = dz.dot(precision * dz);
+    r.t = std::sqrt(precision.determinant()) *
+          std::exp(std::lgamma(0.5 * (dof + p_.d)) - std::lgamma(0.5 * dof)) *
+          std::pow(2 / a, 0.5 * p_.d) * std::pow(1 + q / a, -0.5 * (dof + p_.d));
+    r.gamma = 1 / e.S_h + from_mean.dot(C_inverse * from_mean);
+    r.x = e.mu + e.Lambda * dz;
+    r.kappa = (dof + p_.d) / (a + q) * (precision * dz);
+    r.dgamma = 2 * C_inverse * from_mean;
+    return r;
+}
+
+std::vector<TextbookImle::Answer> TextbookImle::answers(const VectorXd &z) const
+{
+    std::vector<Answer> all;
+    double W = outlier_input();
+    for (const Expert &e : experts_) {
+        all.push_back(answer(e, z));
+        W += all.back().t;
+    }
+    for (Answer &a : all)
+        a.phi = a.t / (a.gamma * a.t + W);
+    return all;
+}
+
+double TextbookImle::deviation(const Answer &a, int expert, const VectorXd &center) const
+{
+    VectorXd dx = a.x - center;
+    return a.phi * dx.cwiseQuotient(experts_[size_t(expert)].Psi).dot(dx);
+}
+
+/* Value, variance, weight and Jacobian of the experts `members`. */
+Solution TextbookImle::fuse(const std::vector<Answer> &all, const std::vector<int> &members) const
+{
+    Solution s;
+    double inside = 0, total = outlier_input();
+    VectorXd dW = VectorXd::Zero(p_.d), sum = VectorXd::Zero(p_.D), precision = sum;
+    for (const Answer &a : all)
+        total += a.t;
+    for (int j : members) {
+        inside += all[size_t(j)].t;
+        dW -= all[size_t(j)].t * all[size_t(j)].kappa;
+    }
+    double W = inside + outlier_input();
+    for (int j : members) {
+        const Answer &a = all[size_t(j)];
+        VectorXd weight = a.t / (a.gamma * a.t + W) * experts_[size_t(j)].Psi.cwiseInverse();
+        sum += weight.cwiseProduct(a.x);
+        precision += weight;
+    }
+    s.value = sum.cwiseQuotient(precision);
+    s.variance = precision.cwiseInverse();
+    s.weight = inside / total;
+    s.jacobian = MatrixXd::Zero(p_.D, p_.d);
+    for (int j : members) {
+        const Answer &a = all[size_t(j)];
+        const Expert &e = experts_[size_t(j)];
+        double bottom = a.gamma * a.t + W;
+        VectorXd dt = -a.t * a.kappa;
+        VectorXd dphi = (W * dt - a.t * a.t * a.dgamma - a.t * dW) / (bottom * bottom);
+        for (int i = 0; i < p_.D; i++)
+            s.jacobian.row(i) += (a.t / bottom / e.Psi(i) * e.Lambda.row(i) +
+                                  (a.x(i) - s.value(i)) / e.Psi(i) * dphi.transpose()) /
+                                 precision(i);
+    }
+    return s;
+}
+
+std::vector<std::vector<int>> TextbookImle::cluster(const std::vector<Answer> &all) const
+{
+    const int n = int(all.size());
+    std::vector<std::vector<int>> members(1);
+    std::vector<VectorXd> center(1);
+    auto weight = [&](int j) { return VectorXd(all[size_t(j)].phi * experts_[size_t(j)].Psi.cwiseInverse()); };
+    VectorXd sum = VectorXd::Zero(p_.D), weights = sum;
+    for (int j = 0; j < n; j++) {
+        members[0].push_back(j);
+        sum += weight(j).cwiseProduct(all[size_t(j)].x);
+        weights += weight(j);
+    }
+    center[0] = sum.cwiseQuotient(weights);
+
+    while (int(members.size()) < p_.n_solutions_max) {
+        size_t worst = 0, clusters = members.size();
+        double largest = 0;
+        for (size_t k = 0; k < clusters; k++) {
+            double T = 0, t = 0, tt = 0;
+            for (int j : members[k]) {
+                T += deviation(all[size_t(j)], j, center[k]);
+                t += all[size_t(j)].t;
+                tt += all[size_t(j)].t * all[size_t(j)].t;
+            }
+            double level =
+                members[k].size() < 2 ? 0 : chi2_cdf((t * t / tt - 1) * p_.D + 1, T);
+            if (level > largest) {
+                largest = level;
+                worst = k;
+            }
+        }
+        if (largest <= p_.significance)
+            break;
+        auto farthest = [&](const VectorXd &x) {
+            return *std::max_element(members[worst].begin(), members[worst].end(),
+                                     [&](int i, int j) {
+                                         return deviation(all[size_t(i)], i, x) <
+                                                deviation(all[size_t(j)], j, x);
+                                     });
+        };
+        int first = farthest(center[worst]);
+        int second = farthest(all[size_t(first)].x);
+        center[worst] = all[size_t(first)].x;
+        center.push_back(all[size_t(second)].x);
+        for (int iteration = 0; iteration < p_.em_pred_iterations; iteration++) {
+            MatrixXd p(n, Eigen::Index(center.size()));
+            for (int j = 0; j < n; j++) {
+                for (size_t k = 0; k < center.size(); k++)
+                    p(j, Eigen::Index(k)) = -0.5 * deviation(all[size_t(j)], j, center[k]);
+                p.row(j) = (p.row(j).array() - p.row(j).maxCoeff()).exp();
+                p.row(j) /= p.row(j).sum();
+            }
+            for (size_t k = 0; k < center.size(); k++) {
+                VectorXd top = VectorXd::Zero(p_.D), bottom = top;
+                for (int j = 0; j < n; j++) {
+                    top += p(j, Eigen::Index(k)) * weight(j).cwiseProduct(all[size_t(j)].x);
+                    bottom += p(j, Eigen::Index(k)) * weight(j);
+                }
+                if ((bottom.array() > 0).all())
+                    center[k] = top.cwiseQuotient(bottom);
+            }
+        }
+        std::vector<std::vector<int>> assigned(center.size());
+        for (int j = 0; j < n; j++) {
+            size_t best = 0;
+            for (size_t k = 1; k < center.size(); k++)
+                if (deviation(all[size_t(j)], j, center[k]) <
+                    deviation(all[size_t(j)], j, center[best]))
+                    best = k;
+            assigned[best].push_back(j);
+        }
+        members.clear();
+        std::vector<VectorXd> kept;
+        for (size_t k = 0; k < assigned.size(); k++)
+            if (!assigned[k].empty()) {
+                members.push_back(assigned[k]);
+                kept.push_back(center[k]);
+            }
+        center = kept;
+        if (members.size() <= clusters)
+            break;
+    }
+    return members;
+}
+
+std::vector<Solution> TextbookImle::predict(const VectorXd &z) const
+{
+    std::vector<Solution> solutions;
+    std::vector<Answer> all = answers(z);
+    for (const std::vector<int> &members : cluster(all))
+        solutions.push_back(fuse(all, members));
+    std::stable_sort(solutions.begin(), solutions.end(),
+                     [](const Solution &a, const Solution &b) { return a.weight > b.weight; });
+    return solutions;
+}
+
+Solution TextbookImle::predict_single(const VectorXd &z) const
+{
+    std::vector<int> everyone;
+    for (int j = 0; j < experts(); j++)
+        everyone.push_back(j);
+    return fuse(answers(z), everyone);
+}
+
+} /* namespace oracle */
