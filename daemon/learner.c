@@ -123,7 +123,7 @@ int learner_predict_inverse(struct learner *learner, const double *x,
     return inverse->n_solutions;
 }
 
-struct learner_statistics learner_statistics(const struct learner *learner)
+struct learner_statistics learner_get_statistics(const struct learner *learner)
 {
     struct learner_statistics statistics = learner->counts;
 

@@ -171,7 +171,7 @@ struct learner_statistics {
     uint64_t refused;  /* REFUSED */
 };
 
-struct learner_statistics learner_statistics(const struct learner *learner);
+struct learner_statistics learner_get_statistics(const struct learner *learner);
 
 /* The state as bytes. learner_save() writes learner_save_size() bytes into
  * the caller's buffer and returns how many, or 0 when `size` is too small. */
