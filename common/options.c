@@ -9,7 +9,7 @@
 
 static const double radians_per_degree = 3.14159265358979323846 / 180.0;
 
-const struct option *option_find(const struct option *table, const char *name)
+const struct option_row *option_find(const struct option_row *table, const char *name)
 {
     for (; table->name; table++)
         if (strcmp(table->name, name) == 0)
@@ -18,18 +18,19 @@ const struct option *option_find(const struct option *table, const char *name)
 }
 
 /* The factor from what people write to what is stored: the one place where degrees end. */
-static double unit_factor(const struct option *row)
+static double unit_factor(const struct option_row *row)
 {
     return row->unit && strncmp(row->unit, "deg", 3) == 0 ? radians_per_degree : 1.0;
 }
 
-static int parse_number(const struct option *row, const char *text, double *value, char *error,
+static int parse_number(const struct option_row *row, const char *text, double *value, char *error,
                         size_t error_size)
 {
     char *end;
     double number;
 
-    errno = 0;
+    if (strcmp(text, ".inf") == 0) /* YAML's infinity */
+        text = "inf";
     number = strtod(text, &end);
     if (end == text || *end || isnan(number)) {
         snprintf(error, error_size, "'%s' is not a number", text);
@@ -45,7 +46,7 @@ static int parse_number(const struct option *row, const char *text, double *valu
     return 0;
 }
 
-static int set_int(const struct option *row, int *field, const char *text, char *error,
+static int set_int(const struct option_row *row, int *field, const char *text, char *error,
                    size_t error_size)
 {
     double number;
@@ -83,7 +84,7 @@ static int set_text(char *field, const char *text, char *error, size_t error_siz
     return 0;
 }
 
-static int set_choice(const struct option *row, int *field, const char *text, char *error,
+static int set_choice(const struct option_row *row, int *field, const char *text, char *error,
                       size_t error_size)
 {
     const char *word = row->choices;
@@ -102,8 +103,8 @@ static int set_choice(const struct option *row, int *field, const char *text, ch
     return -1;
 }
 
-static int set_list(const struct option *row, struct option_list *field, const char *const *items,
-                    int n_items, char *error, size_t error_size)
+static int set_list(const struct option_row *row, struct option_list *field,
+                    const char *const *items, int n_items, char *error, size_t error_size)
 {
     if (n_items > OPTION_MAX_LIST) {
         snprintf(error, error_size, "list is longer than %d", OPTION_MAX_LIST);
@@ -119,14 +120,14 @@ static int set_list(const struct option *row, struct option_list *field, const c
     return 0;
 }
 
-int option_set(const struct option *row, void *target, const char *const *items, int n_items,
+int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
                bool is_list, char *error, size_t error_size)
 {
     char *field = (char *)target + row->offset;
 
     if (is_list != (row->type == OPTION_LIST)) {
-        snprintf(error, error_size, is_list ? "a single value is wanted, not a list"
-                                            : "a list [a, b, ...] is wanted");
+        snprintf(error, error_size,
+                 is_list ? "a single value is wanted, not a list" : "a list [a, b, ...] is wanted");
         return -1;
     }
     switch (row->type) {
@@ -152,7 +153,7 @@ int option_set(const struct option *row, void *target, const char *const *items,
 
 /* What is being filled, and which rows already have a value from the present source. */
 struct loading {
-    const struct option *table;
+    const struct option_row *table;
     void *target;
     bool given[OPTION_MAX_ROWS];
     bool seen_in_file[OPTION_MAX_ROWS];
@@ -162,7 +163,7 @@ static int apply_to_table(void *user, const char *name, const char *const *items
                           bool is_list, char *error, size_t error_size)
 {
     struct loading *loading = (struct loading *)user;
-    const struct option *row = option_find(loading->table, name);
+    const struct option_row *row = option_find(loading->table, name);
     ptrdiff_t index;
 
     if (!row) {
@@ -204,7 +205,7 @@ static int apply_text(struct loading *loading, const char *origin, const char *n
 
 static int apply_defaults(struct loading *loading, char *error, size_t error_size)
 {
-    for (const struct option *row = loading->table; row->name; row++)
+    for (const struct option_row *row = loading->table; row->name; row++)
         if (row->initial &&
             apply_text(loading, "default", row->name, row->initial, error, error_size))
             return -1;
@@ -245,11 +246,11 @@ static int apply_overrides(struct loading *loading, const char *const *overrides
     return 0;
 }
 
-int options_load(const struct option *table, void *target, const char *path,
+int options_load(const struct option_row *table, void *target, const char *path,
                  const char *const *overrides, int n_overrides, char *error, size_t error_size)
 {
     struct loading loading = {.table = table, .target = target};
-    const struct option *row;
+    const struct option_row *row;
 
     for (row = table; row->name; row++)
         if (row - table >= OPTION_MAX_ROWS - 1) {
@@ -272,7 +273,7 @@ int options_load(const struct option *table, void *target, const char *path,
     return 0;
 }
 
-void options_print(const struct option *table, FILE *out)
+void options_print(const struct option_row *table, FILE *out)
 {
     for (; table->name; table++) {
         fprintf(out, "%-36s %s\n", table->name, table->help);

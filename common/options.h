@@ -39,7 +39,7 @@ struct option_list {
  * radians; every other unit is stored as written. `initial` is the default, in the text that YAML
  * would hold ("2.0", "[1, 2, 3]"); NULL means that the option must be given. `minimum` and
  * `maximum` are in the unit that people write; both 0 means no range. */
-struct option {
+struct option_row {
     const char *name;
     enum option_type type;
     size_t offset;
@@ -61,19 +61,19 @@ struct option {
  * with `n_overrides` texts "name=value". The struct is validated whole: on failure it is
  * unspecified and must not be used.
  *   returns 0, or -1 with one line in `error` ("etc/kobian.yaml:12: reach.gain: ..."). */
-int options_load(const struct option *table, void *target, const char *path,
+int options_load(const struct option_row *table, void *target, const char *path,
                  const char *const *overrides, int n_overrides, char *error, size_t error_size);
 
 /* Prints the table as a reference: name, unit, default, range, help. */
-void options_print(const struct option *table, FILE *out);
+void options_print(const struct option_row *table, FILE *out);
 
 /* For options_yaml.c and tests: sets one option from text. `items` texts of a list (or 1 scalar).
  *   returns 0, or -1 with what is wrong (without file and key) in `error`. */
-int option_set(const struct option *row, void *target, const char *const *items, int n_items,
+int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
                bool is_list, char *error, size_t error_size);
 
 /* The row of this name, or NULL. */
-const struct option *option_find(const struct option *table, const char *name);
+const struct option_row *option_find(const struct option_row *table, const char *name);
 
 /* For options_yaml.c: reads a YAML document and calls `apply` for each leaf.
  *   returns 0, or -1 with "path:line: key: reason" in `error`. */

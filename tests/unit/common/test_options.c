@@ -23,7 +23,7 @@ struct settings {
             "help of " #field, choices                                                             \
     }
 
-static const struct option table[] = {
+static const struct option_row table[] = {
     ROW(fast, OPTION_BOOL, NULL, "false", 0, 0, NULL),
     ROW(count, OPTION_INT, NULL, "3", 1, 10, NULL),
     ROW(gain, OPTION_NUMBER, "1/s", "2.0", 0, 5, NULL),
@@ -37,7 +37,7 @@ static const struct option table[] = {
 static char error[512];
 
 /* Loads a YAML text through a file, as programs do. */
-static int load(const struct option *rows, struct settings *settings, const char *yaml,
+static int load(const struct option_row *rows, struct settings *settings, const char *yaml,
                 const char *override)
 {
     char path[] = "/tmp/reach_options_XXXXXX";
@@ -164,7 +164,7 @@ END_TEST
 
 START_TEST(a_missing_file_and_a_missing_value_are_told)
 {
-    static const struct option needed[] = {{"arm.gain", OPTION_NUMBER,
+    static const struct option_row needed[] = {{"arm.gain", OPTION_NUMBER,
                                             offsetof(struct settings, gain), NULL, NULL, 0, 0,
                                             "a gain", NULL},
                                            OPTION_END};
@@ -186,7 +186,7 @@ START_TEST(the_reference_names_every_row)
 
     options_print(table, stream);
     fclose(stream);
-    for (const struct option *row = table; row->name; row++)
+    for (const struct option_row *row = table; row->name; row++)
         ck_assert_ptr_nonnull(strstr(text, row->name));
     ck_assert_ptr_nonnull(strstr(text, "default 90, unit deg/s, range 0 .. 360"));
     free(text);

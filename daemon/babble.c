@@ -1,0 +1,73 @@
+/* Motor babbling (paper section 7.1): random configurations, fixation, one sample at each. */
+#include "behaviour.h"
+
+#include <reach_status_t.h>
+
+static void next_goal(struct behaviour *behaviour, struct control *control)
+{
+    const struct config *config = control->config;
+    struct babble *babble = &behaviour->babble;
+
+    for (int i = 0; i < config_arm_joints(config); i++)
+        babble->goal[i] = random_uniform(&babble->random, config->babble_min.value[i],
+                                         config->babble_max.value[i]);
+    babble->deadline = control->now + (int64_t)(config->babble_timeout * 1e6);
+    behaviour->progress.phase = REACH_STATUS_T_MOVE;
+}
+
+static void babble_start(struct behaviour *behaviour, const reach_request_t *request,
+                         struct control *control)
+{
+    behaviour->babble.random = random_seed(request->seed);
+    behaviour->progress.total = request->count;
+    next_goal(behaviour, control);
+}
+
+/* The arm is there, or as near as it gets: wait for the eyes. */
+static void move(struct behaviour *behaviour, struct control *control)
+{
+    struct babble *babble = &behaviour->babble;
+    bool there = control_arm_to(control, babble->goal);
+
+    control_gaze(control, false);
+    if (there || control->now >= babble->deadline) {
+        babble->deadline = control->now + (int64_t)(control->config->fixation_timeout * 1e6);
+        behaviour->progress.phase = REACH_STATUS_T_FIXATE;
+    }
+}
+
+static void fixate(struct behaviour *behaviour, struct control *control)
+{
+    struct progress *progress = &behaviour->progress;
+    enum gaze_state gaze;
+
+    control_arm_to(control, behaviour->babble.goal);
+    gaze = control_gaze(control, true);
+    progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
+    if (sight_fixated(control->sight)) {
+        control_gather(control, control->config->fixation_frames);
+        progress->done++;
+        next_goal(behaviour, control);
+    } else if (control->now >= behaviour->babble.deadline) {
+        progress->skipped++;
+        next_goal(behaviour, control);
+    }
+}
+
+static bool babble_step(struct behaviour *behaviour, struct control *control)
+{
+    if (behaviour->progress.done >= behaviour->progress.total)
+        return false;
+    if (behaviour->progress.phase == REACH_STATUS_T_MOVE)
+        move(behaviour, control);
+    else
+        fixate(behaviour, control);
+    return true;
+}
+
+const struct behaviour_ops behaviour_babble = {
+    .name = "babble",
+    .code = REACH_STATUS_T_BABBLE,
+    .start = babble_start,
+    .step = babble_step,
+};

@@ -1,0 +1,73 @@
+#include "behaviour.h"
+
+#include "taskspace.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+const struct behaviour_ops *behaviour_for_request(int8_t kind)
+{
+    switch (kind) {
+    case REACH_REQUEST_T_BABBLE:
+        return &behaviour_babble;
+    case REACH_REQUEST_T_COORDINATE:
+        return &behaviour_coordinate;
+    case REACH_REQUEST_T_REACH:
+        return &behaviour_reach;
+    default:
+        return NULL;
+    }
+}
+
+bool control_arm_to(struct control *control, const double *goal)
+{
+    bool there = true;
+
+    for (int i = 0; i < config_arm_joints(control->config); i++) {
+        double error = goal[i] - control->q[i];
+        control->velocity[i] = control->config->babble_gain * error;
+        there = there && fabs(error) <= control->config->babble_tolerance;
+    }
+    return there;
+}
+
+enum gaze_state control_gaze(struct control *control, bool may_search)
+{
+    int n_arm = config_arm_joints(control->config);
+
+    return gaze_step(control->gaze, control->sight, control->now, control->q + n_arm, may_search,
+                     control->velocity + n_arm);
+}
+
+void control_task_velocity(struct control *control, const double *x_velocity)
+{
+    const struct config *config = control->config;
+    const double *jacobian = select_jacobian(control->selection);
+    struct taskspace taskspace = {
+        .n_joints = config_arm_joints(config),
+        .n_outputs = VISUAL_DIMENSIONS,
+        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
+        .threshold = config->singular_threshold,
+        .damping_max = config->damping_max,
+        .secondary_gain = config->secondary_gain,
+    };
+
+    if (!jacobian)
+        return;
+    memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
+    memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
+    taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);
+}
+
+void control_gather(struct control *control, int n)
+{
+    sight_pair(control->sight, n, control->pair.q, control->pair.x, &control->pair.utime);
+    control->has_pair = true;
+}
+
+void control_babble_centre(const struct config *config, double *goal)
+{
+    for (int i = 0; i < config_arm_joints(config); i++)
+        goal[i] = 0.5 * (config->babble_min.value[i] + config->babble_max.value[i]);
+}

@@ -1,0 +1,111 @@
+/* What the robot wants now. Each behaviour is one small file behind one ops table.
+ *
+ * A behaviour sees the senses through `struct control` and writes what it wants there; it reads no
+ * clock, does no input or output, and knows nothing of motors' limits (motion.h, safety.h). */
+#ifndef REACH_BEHAVIOUR_H
+#define REACH_BEHAVIOUR_H
+
+#include "config.h"
+#include "gaze.h"
+#include "random.h"
+#include "select.h"
+#include "sight.h"
+
+#include <reach_request_t.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* One training pair that a behaviour has gathered. */
+struct pair {
+    int64_t utime;         /* us */
+    double q[MAX_JOINTS];  /* arm joints, rad */
+    double x[MAX_OUTPUTS]; /* task position */
+};
+
+/* The senses and the wants of one tick. */
+struct control {
+    const struct config *config;
+    int64_t now;            /* us */
+    const double *q;        /* all joints, arm first, rad */
+    const double *previous; /* velocities commanded in the tick before, rad/s */
+    const struct sight *sight;
+    struct selection *selection;
+    struct gaze *gaze;
+
+    double velocity[MAX_JOINTS];      /* wanted, all joints, rad/s */
+    bool has_target;                  /* `target` holds */
+    double target[VISUAL_DIMENSIONS]; /* where the marker is to be seen, px */
+    bool has_pair;                    /* `pair` was gathered in this tick */
+    struct pair pair;
+};
+
+/* How far a behaviour is; phases are those of status_t. */
+struct progress {
+    int8_t phase;
+    int done, total, skipped;
+};
+
+/* Random joint references, each followed by fixation (paper section 7.1). */
+struct babble {
+    struct random_state random;
+    double goal[MAX_JOINTS]; /* rad */
+    int64_t deadline;        /* us */
+};
+
+/* Arm follows head (section 7.2), or arm reaches under a resting head (section 7.3). */
+struct targets {
+    int n;
+    double target[MAX_TARGETS][VISUAL_DIMENSIONS]; /* px */
+    int64_t period;                                /* us */
+    int64_t deadline;                              /* us */
+    bool go_to_centre;
+    double head_goal[HEAD_JOINTS]; /* rad */
+};
+
+struct behaviour;
+
+struct behaviour_ops {
+    const char *name;
+    int8_t code; /* status_t.behaviour */
+    /* Starts on a request that was found valid. */
+    void (*start)(struct behaviour *behaviour, const reach_request_t *request,
+                  struct control *control);
+    /* One tick. Returns false when the work is done. */
+    bool (*step)(struct behaviour *behaviour, struct control *control);
+};
+
+/* The behaviour that runs, with its state. ops NULL = none. */
+struct behaviour {
+    const struct behaviour_ops *ops;
+    int64_t request_seq;
+    bool learn;
+    struct progress progress;
+    union {
+        struct babble babble;
+        struct targets targets;
+    };
+};
+
+extern const struct behaviour_ops behaviour_babble, behaviour_coordinate, behaviour_reach;
+
+/* The table entry of a request's kind, NULL when the kind starts no behaviour. */
+const struct behaviour_ops *behaviour_for_request(int8_t kind);
+
+/* Helpers that behaviours share. */
+
+/* Position control of the arm towards `goal` (rad). Returns true when it is there. */
+bool control_arm_to(struct control *control, const double *goal);
+
+/* The head follows the marker, or searches it. */
+enum gaze_state control_gaze(struct control *control, bool may_search);
+
+/* Arm velocities for a wanted task velocity (rad/s, rad/s, px/s) by eq. 4; none without a model. */
+void control_task_velocity(struct control *control, const double *x_velocity);
+
+/* Makes the pair of the last n frames this tick's pair. */
+void control_gather(struct control *control, int n);
+
+/* Middle of the babbled range, rad. */
+void control_babble_centre(const struct config *config, double *goal);
+
+#endif

@@ -1,0 +1,320 @@
+#include "config.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROW(name, type, field, unit, initial, minimum, maximum, help)                              \
+    {                                                                                              \
+        name, type, offsetof(struct config, field), unit, initial, minimum, maximum, help, NULL    \
+    }
+#define NUMBER(name, field, unit, initial, minimum, maximum, help)                                 \
+    ROW(name, OPTION_NUMBER, field, unit, initial, minimum, maximum, help)
+#define COUNT(name, field, initial, minimum, maximum, help)                                        \
+    ROW(name, OPTION_INT, field, NULL, initial, minimum, maximum, help)
+#define LIST(name, field, unit, initial, minimum, maximum, help)                                   \
+    ROW(name, OPTION_LIST, field, unit, initial, minimum, maximum, help)
+#define FLAG(name, field, initial, help) ROW(name, OPTION_BOOL, field, NULL, initial, 0, 0, help)
+#define CHOICE(name, field, initial, words, help)                                                  \
+    {                                                                                              \
+        name, OPTION_CHOICE, offsetof(struct config, field), NULL, initial, 0, 0, help, words      \
+    }
+
+static const struct option_row table[] = {
+    NUMBER("period", period, "s", "0.02", 0.001, 1, "period of the control loop"),
+
+    LIST("arm.min", arm_min, "deg", NULL, -360, 360, "lower limit of each arm joint"),
+    LIST("arm.max", arm_max, "deg", NULL, -360, 360, "upper limit of each arm joint"),
+    LIST("head.min", head_min, "deg", NULL, -180, 180, "lower limit of head yaw, pitch"),
+    LIST("head.max", head_max, "deg", NULL, -180, 180, "upper limit of head yaw, pitch"),
+
+    NUMBER("eyes.pixels_per_radian", pixels_per_radian, "px", NULL, 1, 1e5,
+           "shift of the image when the head turns: relation of eq. 11 and eq. 12"),
+    NUMBER("eyes.stale", eyes_stale, "s", "0.2", 0.01, 10,
+           "age of the last seen marker at which it no longer counts as seen"),
+
+    NUMBER("motion.arm_velocity", arm_velocity, "deg/s", "40", 0.1, 360, "greatest wanted"),
+    NUMBER("motion.arm_acceleration", arm_acceleration, "deg/s2", "200", 1, 1e4, "greatest wanted"),
+    NUMBER("motion.head_velocity", head_velocity, "deg/s", "60", 0.1, 720, "greatest wanted"),
+    NUMBER("motion.head_acceleration", head_acceleration, "deg/s2", "400", 1, 1e5,
+           "greatest wanted"),
+    NUMBER("motion.margin", margin, "deg", "0.5", 0, 20, "distance kept from the joint limits"),
+    NUMBER("motion.slow_down", slow_down, "1/s", "4", 0.1, 50,
+           "greatest velocity per distance to a joint limit"),
+
+    NUMBER("safety.arm_velocity", safety_arm_velocity, "deg/s", "60", 0.1, 720,
+           "no arm command exceeds this"),
+    NUMBER("safety.arm_acceleration", safety_arm_acceleration, "deg/s2", "600", 1, 1e5,
+           "no arm command changes faster than this"),
+    NUMBER("safety.head_velocity", safety_head_velocity, "deg/s", "120", 0.1, 1440,
+           "no head command exceeds this"),
+    NUMBER("safety.head_acceleration", safety_head_acceleration, "deg/s2", "1200", 1, 1e6,
+           "no head command changes faster than this"),
+    NUMBER("safety.state_hold", state_hold, "s", "0.04", 0.001, 10,
+           "age of the robot state at which the robot is held still"),
+    NUMBER("safety.state_suspend", state_suspend, "s", "0.1", 0.001, 60,
+           "age of the robot state at which the behaviour is suspended"),
+    COUNT("safety.overruns_fault", overruns_fault, "10", 1, 100000,
+          "late ticks in a row that are a fault"),
+
+    NUMBER("head.gain", head_gain, "1/s", "6", 0.01, 50, "K_0 and K_1 of eq. 11, per radian"),
+    NUMBER("head.search_velocity", search_velocity, "deg/s", "40", 0.1, 720,
+           "speed of the search for a marker that is out of view"),
+    NUMBER("head.search_dwell", search_dwell, "s", "0.15", 0, 10,
+           "rest at each place that the search looks at"),
+
+    NUMBER("fixation.tolerance", fixation_tolerance, "px", "2", 0.01, 100,
+           "distance from the image centre at which the marker counts as fixated"),
+    NUMBER("fixation.rest", fixation_rest, "px", "2.5", 0.01, 100,
+           "spread over the frames up to which marker and head count as at rest"),
+    COUNT("fixation.frames", fixation_frames, "6", 1, 16, "frames that one sample averages"),
+    NUMBER("fixation.lost", fixation_lost, "s", "0.3", 0.01, 60,
+           "time without a marker after which it is searched"),
+    NUMBER("fixation.timeout", fixation_timeout, "s", "8", 0.1, 600,
+           "time for fixation after which a configuration is given up"),
+
+    LIST("babble.min", babble_min, "deg", NULL, -360, 360, "least random reference"),
+    LIST("babble.max", babble_max, "deg", NULL, -360, 360, "greatest random reference"),
+    NUMBER("babble.gain", babble_gain, "1/s", "4", 0.01, 50, "of the joint position control"),
+    NUMBER("babble.tolerance", babble_tolerance, "deg", "0.3", 0.001, 20,
+           "distance at which a reference counts as reached"),
+    NUMBER("babble.timeout", babble_timeout, "s", "10", 0.1, 600,
+           "time for a move after which the arm fixates where it is"),
+
+    NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4"),
+    NUMBER("task.follow_gain", follow_gain, "1/s", "3", 0, 50, "k_c of eq. 13"),
+    NUMBER("task.secondary_gain", secondary_gain, "rad/s", "0.05", 0, 10,
+           "K_s of eq. 4: joints towards the middle of their range, in the null space"),
+    NUMBER("task.singular_threshold", singular_threshold, NULL, "0.05", 1e-9, 1e3,
+           "delta_T of eq. 9, in scaled task units per radian"),
+    NUMBER("task.damping_max", damping_max, NULL, "0.05", 0, 1e3,
+           "lambda_MAX of eq. 9, in scaled task units per radian"),
+    NUMBER("task.scale_angle", scale_angle, "deg", "10", 1e-6, 360,
+           "task rows of angles are divided by this before norms, eq. 8 and eq. 9"),
+    NUMBER("task.scale_disparity", scale_disparity, "px", "40", 1e-6, 1e4,
+           "the task row of disparity is divided by this, likewise"),
+
+    CHOICE("learner.kind", learner_kind, "imle", "imle|null", "learning algorithm"),
+    CHOICE("learner.experts", learner_features, "polynomial", "linear|polynomial",
+           "what an expert is linear in: the joints (as published) or their monomials"),
+    COUNT("learner.degree", learner_degree, "3", 1, 6, "of the polynomial"),
+    COUNT("learner.capacity", learner_capacity, "64", 1, 1024, "most experts"),
+    NUMBER("learner.noise_angle", learner_noise_angle, "deg", "1", 1e-6, 90,
+           "standard deviation of the angles about an expert: square root of Psi_0"),
+    NUMBER("learner.noise_disparity", learner_noise_disparity, "px", "3", 1e-6, 1000,
+           "the same for the disparity"),
+    NUMBER("learner.reach", learner_reach, "rad", "0.5", 1e-6, 100,
+           "standard deviation of an expert's inputs: square root of sigma_0"),
+    LIST("learner.reference", learner_reference, "deg", NULL, -360, 360,
+         "middle of the joints' range, where polynomials are centred"),
+    NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100, "unit of the polynomials"),
+    NUMBER("learner.alpha", learner_alpha, NULL, "0.999", 0.5, 1, "forgetting exponent, 1 = none"),
+    NUMBER("learner.ridge", learner_ridge, NULL, "0.001", 1e-12, 1e6, "w_Lambda"),
+    NUMBER("learner.hyper_sigma", learner_hyper_sigma, NULL, "8", 0, HUGE_VAL, "w_sigma"),
+    NUMBER("learner.hyper_psi", learner_hyper_psi, NULL, ".inf", 0, HUGE_VAL, "w_psi"),
+    NUMBER("learner.prior_sigma", learner_prior_sigma, NULL, "16", 1, HUGE_VAL, "w_Sigma"),
+    NUMBER("learner.prior_psi", learner_prior_psi, NULL, ".inf", 0, HUGE_VAL, "w_Psi"),
+    NUMBER("learner.prior_nu", learner_prior_nu, NULL, "0", 0, 1e6, "w_nu"),
+    NUMBER("learner.p0", learner_p0, NULL, "0.1", 0, 1, "outlier probability"),
+    COUNT("learner.outliers", learner_outliers, "1", 0, 1000,
+          "outliers in a row that are dropped before an expert is born"),
+    CHOICE("learner.clustering", learner_clustering, "leader", "published|split|leader",
+           "how experts are gathered into solutions"),
+    NUMBER("learner.significance", learner_significance, NULL, "0.99", 0, 1,
+           "level of the rules that split"),
+    NUMBER("learner.leader_level", learner_leader_level, NULL, "0.9", 0, 1,
+           "level of the leader rule"),
+    NUMBER("learner.kappa", learner_kappa, NULL, "0.5", 0, 1, "exponent of distance, split|leader"),
+    NUMBER("learner.gamma_floor", learner_gamma_floor, NULL, "0.05", 0, 100,
+           "least uncertainty of an expert in an average, 0 = as published"),
+    COUNT("learner.solutions", learner_solutions, "16", 1, 16, "most solutions"),
+    COUNT("learner.em_iterations", learner_em_iterations, "2", 0, 100, "EM_pred iterations"),
+    FLAG("learner.inherit", learner_inherit, "true",
+         "a new expert starts from its parent's slopes"),
+    FLAG("learner.average_jacobian", learner_average_jacobian, "false",
+         "mean of slopes instead of the exact derivative"),
+    COUNT("learner.queue", learner_queue, "256", 1, 65536, "training samples that may wait"),
+    COUNT("learner.quota", learner_quota, "4", 1, 1000, "samples learned in one tick of lockstep"),
+
+    {"model.directory", OPTION_TEXT, offsetof(struct config, model_directory), NULL, "", 0, 0,
+     "where models are saved; empty: saving is refused", NULL},
+    OPTION_END,
+};
+
+const struct option_row *config_table(void)
+{
+    return table;
+}
+
+/* Two lists of limits: as long as each other and in order. */
+static int check_range(const char *name, const struct option_list *min,
+                       const struct option_list *max, char *error, size_t error_size)
+{
+    if (min->n == 0 || min->n != max->n) {
+        snprintf(error, error_size, "%s.min and %s.max must have as many entries, at least one",
+                 name, name);
+        return -1;
+    }
+    for (int i = 0; i < min->n; i++)
+        if (min->value[i] >= max->value[i]) {
+            snprintf(error, error_size, "%s.min is not below %s.max at joint %d", name, name,
+                     i + 1);
+            return -1;
+        }
+    return 0;
+}
+
+static int check_babble(const struct config *config, char *error, size_t error_size)
+{
+    if (config->babble_min.n != config_arm_joints(config)) {
+        snprintf(error, error_size, "babble.min must have an entry for each arm joint");
+        return -1;
+    }
+    for (int i = 0; i < config->babble_min.n; i++)
+        if (config->babble_min.value[i] < config->arm_min.value[i] ||
+            config->babble_max.value[i] > config->arm_max.value[i]) {
+            snprintf(error, error_size, "babble range of joint %d is outside arm.min .. arm.max",
+                     i + 1);
+            return -1;
+        }
+    return 0;
+}
+
+static int check_motion(const struct config *config, char *error, size_t error_size)
+{
+    const char *wrong = NULL;
+
+    if (config->arm_velocity > config->safety_arm_velocity)
+        wrong = "motion.arm_velocity exceeds safety.arm_velocity";
+    else if (config->head_velocity > config->safety_head_velocity)
+        wrong = "motion.head_velocity exceeds safety.head_velocity";
+    else if (config->arm_acceleration > config->safety_arm_acceleration)
+        wrong = "motion.arm_acceleration exceeds safety.arm_acceleration";
+    else if (config->head_acceleration > config->safety_head_acceleration)
+        wrong = "motion.head_acceleration exceeds safety.head_acceleration";
+    else if (config->slow_down * config->safety_arm_velocity > config->safety_arm_acceleration ||
+             config->slow_down * config->safety_head_velocity > config->safety_head_acceleration)
+        wrong = "motion.slow_down times a safety velocity exceeds the safety acceleration: "
+                "a joint could not stop before its limit";
+    else if (config->slow_down * config->period > 0.25)
+        wrong = "motion.slow_down is too great for the period: at most 0.25 / period";
+    else if (config->state_suspend < config->state_hold)
+        wrong = "safety.state_suspend is below safety.state_hold";
+    else if (config->search_velocity > config->head_velocity)
+        wrong = "head.search_velocity exceeds motion.head_velocity";
+    if (wrong)
+        snprintf(error, error_size, "%s", wrong);
+    return wrong ? -1 : 0;
+}
+
+static int check_sizes(const struct config *config, char *error, size_t error_size)
+{
+    if (config_head_joints(config) != 2) {
+        snprintf(error, error_size, "head.min and head.max must name two joints, yaw and pitch");
+        return -1;
+    }
+    if (config_joints(config) > OPTION_MAX_LIST) {
+        snprintf(error, error_size, "more than %d joints", OPTION_MAX_LIST);
+        return -1;
+    }
+    if (config->learner_reference.n != config_arm_joints(config)) {
+        snprintf(error, error_size, "learner.reference must have an entry for each arm joint");
+        return -1;
+    }
+    return 0;
+}
+
+static int check_learner(const struct config *config, char *error, size_t error_size)
+{
+    struct learner_config learner = config_learner(config);
+    char reason[256];
+
+    if (learner_config_check(&learner, reason, sizeof reason) == 0)
+        return 0;
+    snprintf(error, error_size, "learner: %s", reason);
+    return -1;
+}
+
+int config_load(struct config *config, const char *path, const char *const *overrides,
+                int n_overrides, char *error, size_t error_size)
+{
+    char reason[320];
+
+    memset(config, 0, sizeof *config);
+    if (options_load(table, config, path, overrides, n_overrides, error, error_size))
+        return -1;
+    if (check_range("arm", &config->arm_min, &config->arm_max, reason, sizeof reason) ||
+        check_range("head", &config->head_min, &config->head_max, reason, sizeof reason) ||
+        check_range("babble", &config->babble_min, &config->babble_max, reason, sizeof reason) ||
+        check_sizes(config, reason, sizeof reason) || check_babble(config, reason, sizeof reason) ||
+        check_motion(config, reason, sizeof reason) ||
+        check_learner(config, reason, sizeof reason)) {
+        snprintf(error, error_size, "%s: %s", path ? path : "options", reason);
+        return -1;
+    }
+    return 0;
+}
+
+struct joint_limits config_joint_limits(const struct config *config, int joint)
+{
+    int n_arm = config_arm_joints(config);
+
+    if (joint < n_arm)
+        return (struct joint_limits){
+            .min = config->arm_min.value[joint],
+            .max = config->arm_max.value[joint],
+            .velocity = config->arm_velocity,
+            .acceleration = config->arm_acceleration,
+            .safety_velocity = config->safety_arm_velocity,
+            .safety_acceleration = config->safety_arm_acceleration,
+        };
+    return (struct joint_limits){
+        .min = config->head_min.value[joint - n_arm],
+        .max = config->head_max.value[joint - n_arm],
+        .velocity = config->head_velocity,
+        .acceleration = config->head_acceleration,
+        .safety_velocity = config->safety_head_velocity,
+        .safety_acceleration = config->safety_head_acceleration,
+    };
+}
+
+static double square(double x)
+{
+    return x * x;
+}
+
+struct learner_config config_learner(const struct config *config)
+{
+    int n_inputs = config_arm_joints(config);
+    struct learner_config learner = learner_config_default(n_inputs, 3);
+
+    learner.kind = (enum learner_kind)config->learner_kind;
+    learner.features = (enum learner_features)config->learner_features;
+    learner.clustering = (enum learner_clustering)config->learner_clustering;
+    learner.degree = config->learner_degree;
+    learner.capacity = config->learner_capacity;
+    learner.psi0[0] = learner.psi0[1] = square(config->learner_noise_angle);
+    learner.psi0[2] = square(config->learner_noise_disparity);
+    for (int i = 0; i < n_inputs; i++) {
+        learner.reference[i] = config->learner_reference.value[i];
+        learner.scale[i] = config->learner_scale;
+        learner.sigma0[i] = square(config->learner_reach);
+    }
+    learner.alpha = config->learner_alpha;
+    learner.ridge = config->learner_ridge;
+    learner.hyper_sigma = config->learner_hyper_sigma;
+    learner.hyper_psi = config->learner_hyper_psi;
+    learner.prior_sigma = config->learner_prior_sigma;
+    learner.prior_psi = config->learner_prior_psi;
+    learner.prior_nu = config->learner_prior_nu;
+    learner.p0 = config->learner_p0;
+    learner.n_outliers = config->learner_outliers;
+    learner.significance = config->learner_significance;
+    learner.leader_level = config->learner_leader_level;
+    learner.kappa = config->learner_kappa;
+    learner.gamma_floor = config->learner_gamma_floor;
+    learner.n_solutions_max = config->learner_solutions;
+    learner.em_pred_iterations = config->learner_em_iterations;
+    learner.inherit = config->learner_inherit;
+    learner.average_jacobian = config->learner_average_jacobian;
+    return learner;
+}

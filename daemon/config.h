@@ -1,0 +1,99 @@
+/* The daemon's configuration: one struct, one table row per option (config.c). */
+#ifndef REACH_CONFIG_H
+#define REACH_CONFIG_H
+
+#include "common/options.h"
+#include "learner.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Angles in radians, times in seconds, image distances in pixels. */
+struct config {
+    double period; /* of the loop, s */
+
+    struct option_list arm_min, arm_max, head_min, head_max; /* joint range, rad */
+
+    double pixels_per_radian; /* image shift for a turn of the head */
+    double eyes_stale;        /* age at which a marker no longer counts as seen, s */
+
+    double arm_velocity, arm_acceleration;   /* of wanted motion */
+    double head_velocity, head_acceleration; /* of wanted motion */
+    double margin;                           /* kept from the joint limits, rad */
+    double slow_down;                        /* greatest velocity per distance to a limit, 1/s */
+
+    double safety_arm_velocity, safety_arm_acceleration;
+    double safety_head_velocity, safety_head_acceleration;
+    double state_hold, state_suspend; /* ages of the robot state, s */
+    int overruns_fault;               /* late ticks in a row that are a fault */
+
+    double head_gain; /* eq. 11, 1/s */
+    double search_velocity, search_dwell;
+
+    double fixation_tolerance, fixation_rest; /* px */
+    int fixation_frames;
+    double fixation_lost, fixation_timeout; /* s */
+
+    struct option_list babble_min, babble_max; /* rad */
+    double babble_gain, babble_tolerance, babble_timeout;
+
+    double task_gain;                       /* K_m of eq. 4, 1/s */
+    double follow_gain;                     /* k_c of eq. 13, 1/s */
+    double secondary_gain;                  /* K_s of eq. 4, rad/s for a gradient of 1 */
+    double singular_threshold, damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */
+    double scale_angle, scale_disparity;    /* what counts as one in each task row */
+
+    int learner_kind, learner_features, learner_clustering;
+    int learner_degree, learner_capacity, learner_outliers, learner_solutions,
+        learner_em_iterations;
+    double learner_noise_angle, learner_noise_disparity; /* sqrt(Psi0) */
+    double learner_reach;                                /* sqrt(sigma0), rad */
+    struct option_list learner_reference;                /* rad */
+    double learner_scale;                                /* rad */
+    double learner_alpha, learner_ridge, learner_p0;
+    double learner_hyper_sigma, learner_prior_sigma, learner_hyper_psi, learner_prior_psi;
+    double learner_prior_nu, learner_significance, learner_leader_level, learner_kappa;
+    double learner_gamma_floor;
+    bool learner_inherit, learner_average_jacobian;
+    int learner_queue, learner_quota;
+
+    char model_directory[OPTION_MAX_TEXT];
+};
+
+/* Reads, checks each option and checks them against each other.
+ *   returns 0, or -1 with one line in `error`. */
+int config_load(struct config *config, const char *path, const char *const *overrides,
+                int n_overrides, char *error, size_t error_size);
+
+/* The table, for --help-options. */
+const struct option_row *config_table(void);
+
+/* Numbers of joints. The arm's come first in states and commands. */
+static inline int config_arm_joints(const struct config *config)
+{
+    return config->arm_min.n;
+}
+
+static inline int config_head_joints(const struct config *config)
+{
+    return config->head_min.n;
+}
+
+static inline int config_joints(const struct config *config)
+{
+    return config_arm_joints(config) + config_head_joints(config);
+}
+
+/* Limits of joint i of the command, arm first: range (rad), velocity, acceleration (rad/s, rad/s2)
+ * of wanted motion, and the hard ones of the safety gate. */
+struct joint_limits {
+    double min, max;
+    double velocity, acceleration;
+    double safety_velocity, safety_acceleration;
+};
+struct joint_limits config_joint_limits(const struct config *config, int joint);
+
+/* The learner's parameters, in its own terms. */
+struct learner_config config_learner(const struct config *config);
+
+#endif

@@ -1,0 +1,52 @@
+/* The daemon's side of the LCM bus: threads that receive and send, so that the loop touches no
+ * socket. The loop meets them only in wait-free mailboxes. */
+#ifndef REACH_DAEMON_BUS_H
+#define REACH_DAEMON_BUS_H
+
+#include "arena.h"
+#include "mailbox.h"
+#include "tick.h"
+
+#include <lcm/lcm.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct daemon_bus;
+
+/* A robot state with the monotonic time at which it came, us. */
+struct received_state {
+    reach_robot_state_t state;
+    int64_t received;
+};
+
+size_t daemon_bus_memory(void);
+
+/* Subscribes on `lcm`, which stays the caller's. Returns NULL with one line in `error`. */
+struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *error,
+                                     size_t error_size);
+
+/* Starts the two threads. Returns 0, or -1 with one line in `error`. */
+int daemon_bus_start(struct daemon_bus *bus, char *error, size_t error_size);
+
+/* Sends what still waits, then ends and joins the threads. */
+void daemon_bus_stop(struct daemon_bus *bus);
+
+/* What has come, for the loop thread: states oldest first, markers and requests likewise. */
+struct mailbox *daemon_bus_states(struct daemon_bus *bus);   /* struct received_state */
+struct mailbox *daemon_bus_markers(struct daemon_bus *bus);  /* reach_marker_t */
+struct mailbox *daemon_bus_requests(struct daemon_bus *bus); /* reach_request_t */
+
+/* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
+bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);
+
+/* Hands outputs to the sending thread; neither waits nor makes a socket call. What the sender
+ * cannot keep up with is dropped and counted. */
+void daemon_bus_send_command(struct daemon_bus *bus, const reach_robot_command_t *command);
+void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample);
+void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
+                            const reach_trace_t *trace);
+
+/* Messages refused so far: malformed, or more than the mailboxes hold. */
+int64_t daemon_bus_refused(const struct daemon_bus *bus);
+
+#endif

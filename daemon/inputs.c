@@ -1,0 +1,64 @@
+#include "inputs.h"
+
+#include "sizes.h"
+
+#include <math.h>
+
+static const double range_slack = 0.35;     /* rad; an encoder may read a little beyond a stop */
+static const double velocity_most = 100;    /* rad/s; nothing on a robot turns faster */
+static const double image_most = 10000;     /* px */
+static const double period_most = 3600;     /* s */
+static const int32_t count_most = 10000000; /* samples of one request */
+static const int32_t model_number_most = 9999;
+
+bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state)
+{
+    if (state->n_joints != config_joints(config) || state->utime <= 0 || state->seq <= 0)
+        return false;
+    for (int i = 0; i < state->n_joints; i++) {
+        struct joint_limits limits = config_joint_limits(config, i);
+        /* Written so that a NaN fails. */
+        if (!(state->position[i] >= limits.min - range_slack &&
+              state->position[i] <= limits.max + range_slack) ||
+            !(fabs(state->velocity[i]) <= velocity_most))
+            return false;
+    }
+    return true;
+}
+
+bool inputs_marker_ok(const reach_marker_t *marker)
+{
+    return marker->utime > 0 && fabs(marker->u_right) <= image_most &&
+           fabs(marker->v_right) <= image_most && fabs(marker->disparity) <= image_most;
+}
+
+static bool targets_ok(const reach_request_t *request)
+{
+    if (request->n_targets < 1 || request->n_targets > MAX_TARGETS ||
+        !(request->period > 0 && request->period <= period_most))
+        return false;
+    for (int i = 0; i < request->n_targets; i++)
+        if (!(fabs(request->u[i]) <= image_most) || !(fabs(request->v[i]) <= image_most) ||
+            !(fabs(request->disparity[i]) <= image_most))
+            return false;
+    return request->count == 0 || request->count == 1;
+}
+
+bool inputs_request_ok(const reach_request_t *request)
+{
+    switch (request->kind) {
+    case REACH_REQUEST_T_STOP:
+    case REACH_REQUEST_T_RESET_FAULT:
+        return true;
+    case REACH_REQUEST_T_BABBLE:
+        return request->count >= 1 && request->count <= count_most;
+    case REACH_REQUEST_T_COORDINATE:
+    case REACH_REQUEST_T_REACH:
+        return targets_ok(request);
+    case REACH_REQUEST_T_SAVE:
+    case REACH_REQUEST_T_LOAD:
+        return request->count >= 0 && request->count <= model_number_most;
+    default:
+        return false;
+    }
+}

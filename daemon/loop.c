@@ -1,0 +1,338 @@
+#include "loop.h"
+
+#include "common/bus.h"
+#include "grid.h"
+#include "realtime.h"
+#include "timing.h"
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <semaphore.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static const int lockstep_poll_ms = 100;  /* how soon a waiting loop sees that it is to end */
+static const double learning_share = 0.6; /* of the period, after which no learning is begun */
+
+struct loop {
+    const struct config *config;
+    struct tick *tick;
+    struct daemon_bus *bus;
+    bool lockstep;
+    bool real_time;
+
+    struct tick_inputs inputs;
+    struct tick_outputs outputs;
+    struct received_state received; /* newest state taken from the mailbox */
+    bool any_state;
+    reach_marker_t pending; /* lockstep: a marker that is not due yet */
+    bool has_pending;
+    int64_t newest_marker; /* lockstep: exposure of the newest marker consumed, us */
+
+    struct timing compute;
+    double wakeup_us;
+    int64_t overruns, slips;
+    int overruns_in_a_row;
+
+    pthread_t thread;
+    sem_t started;
+    int start_result;
+    char start_error[200];
+    _Atomic bool ending;
+    _Atomic int64_t ticks;
+    _Atomic int waits;
+};
+
+size_t loop_memory(void)
+{
+    return arena_footprint(sizeof(struct loop));
+}
+
+struct loop *loop_create(const struct config *config, struct tick *tick, struct daemon_bus *bus,
+                         bool lockstep, bool real_time, struct arena *arena)
+{
+    struct loop *loop = arena_alloc(arena, sizeof *loop);
+
+    if (!loop)
+        return NULL;
+    loop->config = config;
+    loop->tick = tick;
+    loop->bus = bus;
+    loop->lockstep = lockstep;
+    loop->real_time = real_time;
+    return loop;
+}
+
+int64_t loop_ticks(const struct loop *loop)
+{
+    return atomic_load_explicit(&loop->ticks, memory_order_relaxed);
+}
+
+enum loop_wait loop_waits(const struct loop *loop)
+{
+    return (enum loop_wait)atomic_load_explicit(&loop->waits, memory_order_relaxed);
+}
+
+static void set_waits(struct loop *loop, enum loop_wait waits)
+{
+    atomic_store_explicit(&loop->waits, (int)waits, memory_order_relaxed);
+}
+
+static bool ending(const struct loop *loop)
+{
+    return atomic_load_explicit(&loop->ending, memory_order_relaxed);
+}
+
+static void take_requests(struct loop *loop)
+{
+    struct tick_inputs *inputs = &loop->inputs;
+
+    inputs->n_requests = 0;
+    while (inputs->n_requests < TICK_MAX_REQUESTS &&
+           mailbox_take(daemon_bus_requests(loop->bus), &inputs->request[inputs->n_requests]))
+        inputs->n_requests++;
+}
+
+static void decide(struct loop *loop, int64_t now)
+{
+    tick_decide(loop->tick, &loop->inputs, now, &loop->outputs);
+    if (loop->outputs.has_command)
+        daemon_bus_send_command(loop->bus, &loop->outputs.command);
+    if (loop->outputs.has_sample)
+        daemon_bus_send_sample(loop->bus, &loop->outputs.sample);
+}
+
+static void report(struct loop *loop, int64_t now)
+{
+    reach_status_t *status = &loop->outputs.status;
+
+    tick_report(loop->tick, now, &loop->outputs);
+    status->compute_us = loop->compute.last;
+    status->compute_mean_us = timing_mean(&loop->compute);
+    status->compute_p999_us = timing_quantile(&loop->compute, 0.999);
+    status->compute_max_us = loop->compute.max;
+    status->wakeup_us = loop->wakeup_us;
+    status->overruns = loop->overruns;
+    status->slips = loop->slips;
+    status->staleness = loop->any_state ? loop->inputs.state_age : -1;
+    status->bad_inputs += daemon_bus_refused(loop->bus);
+    daemon_bus_send_report(loop->bus, status, &loop->outputs.trace);
+    atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);
+}
+
+/* Lockstep: markers up to the one that is due, no further, so that a run does not depend on how
+ * fast vision is. Returns whether the one that is due has come. */
+static bool take_due_markers(struct loop *loop, int64_t due)
+{
+    struct tick_inputs *inputs = &loop->inputs;
+
+    while (loop->newest_marker < due && inputs->n_markers < TICK_MAX_MARKERS) {
+        if (!loop->has_pending)
+            loop->has_pending = mailbox_take(daemon_bus_markers(loop->bus), &loop->pending);
+        if (!loop->has_pending)
+            return false;
+        if (loop->pending.utime > due)
+            return true; /* the eyes have moved on: the one that was due is lost */
+        loop->has_pending = false;
+        if (loop->pending.utime <= loop->newest_marker)
+            continue; /* a repeat */
+        loop->newest_marker = loop->pending.utime;
+        inputs->marker[inputs->n_markers++] = loop->pending;
+    }
+    return true;
+}
+
+/* Waits for the marker that is due with the state. Returns false when the loop is to end. */
+static bool wait_for_marker(struct loop *loop, int64_t due)
+{
+    loop->inputs.n_markers = 0;
+    while (!take_due_markers(loop, due)) {
+        if (ending(loop))
+            return false;
+        if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
+            set_waits(loop, LOOP_WAITS_FOR_MARKER);
+    }
+    set_waits(loop, LOOP_RUNS);
+    return true;
+}
+
+/* One period of lockstep for a state that was not answered yet. */
+static void step_lockstep(struct loop *loop)
+{
+    const reach_robot_state_t *state = &loop->received.state;
+    int64_t begin;
+
+    if (loop->any_state && state->utime < loop->inputs.state.utime) {
+        loop->newest_marker = 0; /* the simulator began anew */
+        loop->has_pending = false;
+    }
+    if (!wait_for_marker(loop, state->vision_due))
+        return;
+    begin = bus_monotonic_us();
+    loop->any_state = true;
+    loop->inputs.has_state = true;
+    loop->inputs.state = *state;
+    loop->inputs.state_age = 0;
+    take_requests(loop);
+    decide(loop, state->utime);
+    timing_add(&loop->compute, (double)(bus_monotonic_us() - begin));
+    for (int i = 0; i < loop->config->learner_quota && tick_learn(loop->tick); i++)
+        ;
+    report(loop, state->utime);
+}
+
+static void run_lockstep(struct loop *loop)
+{
+    int64_t answered = 0;
+
+    while (!ending(loop)) {
+        if (!mailbox_take(daemon_bus_states(loop->bus), &loop->received)) {
+            if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
+                set_waits(loop, LOOP_WAITS_FOR_STATE);
+            continue;
+        }
+        set_waits(loop, LOOP_RUNS);
+        if (loop->received.state.seq == answered && loop->outputs.has_command) {
+            daemon_bus_send_command(loop->bus, &loop->outputs.command); /* it was lost */
+            continue;
+        }
+        step_lockstep(loop);
+        answered = loop->received.state.seq;
+    }
+}
+
+/* Real time: whatever has come counts now. */
+static void take_all(struct loop *loop)
+{
+    struct tick_inputs *inputs = &loop->inputs;
+
+    inputs->has_state = false;
+    while (mailbox_take(daemon_bus_states(loop->bus), &loop->received)) {
+        inputs->has_state = true;
+        inputs->state = loop->received.state;
+        loop->any_state = true;
+    }
+    inputs->state_age =
+        loop->any_state ? (double)(bus_monotonic_us() - loop->received.received) * 1e-6 : INFINITY;
+    inputs->n_markers = 0;
+    while (inputs->n_markers < TICK_MAX_MARKERS &&
+           mailbox_take(daemon_bus_markers(loop->bus), &inputs->marker[inputs->n_markers]))
+        inputs->n_markers++;
+    take_requests(loop);
+    inputs->overrunning = loop->overruns_in_a_row >= loop->config->overruns_fault;
+}
+
+static int64_t monotonic_ns(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static void sleep_until(int64_t ns)
+{
+    struct timespec due = {.tv_sec = ns / 1000000000, .tv_nsec = ns % 1000000000};
+
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL) == EINTR)
+        ;
+}
+
+static void account(struct loop *loop, int64_t woken, int64_t period)
+{
+    bool late = monotonic_ns() - woken > period;
+
+    loop->overruns += late;
+    loop->overruns_in_a_row = late ? loop->overruns_in_a_row + 1 : 0;
+}
+
+/* One period of real time: the command first, then what learning the slack allows. */
+static void step_real_time(struct loop *loop, int64_t woken, int64_t period)
+{
+    int64_t learn_until = woken + (int64_t)(learning_share * (double)period);
+    int64_t now = bus_utime();
+
+    take_all(loop);
+    decide(loop, now);
+    timing_add(&loop->compute, (double)(monotonic_ns() - woken) * 1e-3);
+    while (monotonic_ns() < learn_until && tick_learn(loop->tick))
+        ;
+    report(loop, now);
+    account(loop, woken, period);
+}
+
+static void run_real_time(struct loop *loop)
+{
+    int64_t period = (int64_t)(loop->config->period * 1e9);
+    int64_t due = monotonic_ns() + period;
+
+    while (!ending(loop)) {
+        int64_t skipped, woken;
+        sleep_until(due);
+        woken = monotonic_ns();
+        loop->wakeup_us = (double)(woken - due) * 1e-3;
+        step_real_time(loop, woken, period);
+        due = grid_next(due, monotonic_ns(), period, &skipped);
+        loop->slips += skipped;
+    }
+}
+
+/* The robot must not go on with the last velocity when nobody steers it any more. */
+static void send_rest(struct loop *loop)
+{
+    if (!loop->outputs.has_command)
+        return;
+    memset(loop->outputs.command.velocity, 0, sizeof loop->outputs.command.velocity);
+    daemon_bus_send_command(loop->bus, &loop->outputs.command);
+}
+
+static void *run(void *user)
+{
+    struct loop *loop = user;
+
+    pthread_setname_np(pthread_self(), "reachd-loop");
+    if (loop->real_time)
+        loop->start_result = realtime_enter(loop->start_error, sizeof loop->start_error);
+    sem_post(&loop->started);
+    if (loop->start_result)
+        return NULL;
+    if (loop->lockstep)
+        run_lockstep(loop);
+    else
+        run_real_time(loop);
+    send_rest(loop);
+    return NULL;
+}
+
+int loop_start(struct loop *loop, char *error, size_t error_size)
+{
+    int failed;
+
+    if (sem_init(&loop->started, 0, 0)) {
+        snprintf(error, error_size, "%s", strerror(errno));
+        return -1;
+    }
+    if (loop->real_time && realtime_lock_memory(error, error_size))
+        return -1;
+    failed = pthread_create(&loop->thread, NULL, run, loop);
+    if (failed) {
+        snprintf(error, error_size, "cannot start the loop: %s", strerror(failed));
+        return -1;
+    }
+    while (sem_wait(&loop->started) && errno == EINTR)
+        ;
+    if (loop->start_result) {
+        pthread_join(loop->thread, NULL);
+        snprintf(error, error_size, "%s", loop->start_error);
+    }
+    return loop->start_result;
+}
+
+void loop_stop(struct loop *loop)
+{
+    atomic_store_explicit(&loop->ending, true, memory_order_relaxed);
+    pthread_join(loop->thread, NULL);
+}

@@ -1,0 +1,39 @@
+/* When: the grid of real time, or lockstep with a simulator. Runs in a thread of its own. */
+#ifndef REACH_LOOP_H
+#define REACH_LOOP_H
+
+#include "config.h"
+#include "daemon_bus.h"
+#include "tick.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct loop;
+
+/* What the loop is doing, for the thread that keeps house. */
+enum loop_wait {
+    LOOP_RUNS,
+    LOOP_WAITS_FOR_STATE,  /* lockstep: the simulator holds the clock */
+    LOOP_WAITS_FOR_MARKER, /* lockstep: vision has not answered yet */
+};
+
+size_t loop_memory(void);
+
+/* Everything is owned by the caller or the arena. Returns NULL when the arena is full. */
+struct loop *loop_create(const struct config *config, struct tick *tick, struct daemon_bus *bus,
+                         bool lockstep, bool real_time, struct arena *arena);
+
+/* Starts the thread. With `real_time` it asks for SCHED_FIFO and locked memory, and fails when the
+ * system refuses them. Returns 0, or -1 with one line in `error`. */
+int loop_start(struct loop *loop, char *error, size_t error_size);
+
+/* Ends the thread after the tick it is in; a last command of zero velocity goes out. */
+void loop_stop(struct loop *loop);
+
+/* Ticks so far: a watchdog is fed only while this moves. */
+int64_t loop_ticks(const struct loop *loop);
+
+enum loop_wait loop_waits(const struct loop *loop);
+
+#endif

@@ -1,0 +1,281 @@
+/* reachd: options, the order of start and end, and housekeeping. */
+#include "arena.h"
+#include "config.h"
+#include "daemon_bus.h"
+#include "loop.h"
+#include "tick.h"
+
+#include "common/bus.h"
+#include "common/log.h"
+#include "version.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <reach_hello_t.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#define MAX_OVERRIDES 64
+
+static const int claim_ms = 300;                /* time for another daemon to answer */
+static const int house_period_ms = 20;          /* of housekeeping */
+static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
+
+struct arguments {
+    const char *config;
+    const char *url;
+    const char *overrides[MAX_OVERRIDES];
+    int n_overrides;
+    bool lockstep, no_rt, verbose;
+};
+
+/* Everything that lives from start to end. */
+struct reachd {
+    struct arguments arguments;
+    struct config config;
+    lcm_t *lcm;
+    struct bus_claim *claim;
+    struct arena *arena;
+    struct tick *tick;
+    struct daemon_bus *bus;
+    struct loop *loop;
+};
+
+static const char usage[] =
+    "usage: reachd --config FILE [options]\n"
+    "Learns how the robot's arm moves, with whatever tool it holds, and reaches with it.\n\n"
+    "  -c, --config FILE     YAML configuration, such as etc/kobian.yaml\n"
+    "  -s, --set NAME=VALUE  override one option of it (may be repeated)\n"
+    "  -u, --url URL         LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")\n"
+    "  -l, --lockstep        the simulator's clock, not the real one\n"
+    "      --no-rt           real time without priority and locked memory, for developers\n"
+    "  -v, --verbose         say more\n"
+    "      --help-options    list every option of the configuration\n"
+    "      --version         print the version\n"
+    "  -h, --help            print this\n\n"
+    "Exit status: 0 ended as asked, 1 could not start or run, 2 wrong usage.\n";
+
+enum { OPTION_NO_RT = 256, OPTION_HELP_OPTIONS, OPTION_VERSION };
+
+static int wrong_usage(const char *what)
+{
+    fprintf(stderr, "reachd: %s; reachd --help tells more\n", what);
+    return 2;
+}
+
+/* Returns -1 to go on, or an exit status. */
+static int take_option(struct arguments *arguments, int option)
+{
+    switch (option) {
+    case 'c':
+        arguments->config = optarg;
+        return -1;
+    case 's':
+        if (arguments->n_overrides == MAX_OVERRIDES)
+            return wrong_usage("too many --set");
+        arguments->overrides[arguments->n_overrides++] = optarg;
+        return -1;
+    case 'u':
+        arguments->url = optarg;
+        return -1;
+    case 'l':
+        arguments->lockstep = true;
+        return -1;
+    case 'v':
+        arguments->verbose = true;
+        return -1;
+    case OPTION_NO_RT:
+        arguments->no_rt = true;
+        return -1;
+    case OPTION_HELP_OPTIONS:
+        options_print(config_table(), stdout);
+        return 0;
+    case OPTION_VERSION:
+        puts("reachd " REACH_VERSION);
+        return 0;
+    case 'h':
+        fputs(usage, stdout);
+        return 0;
+    default:
+        return wrong_usage("unknown option or missing value");
+    }
+}
+
+static int parse(struct arguments *arguments, int argc, char **argv)
+{
+    static const struct option words[] = {
+        {"config", required_argument, NULL, 'c'},
+        {"set", required_argument, NULL, 's'},
+        {"url", required_argument, NULL, 'u'},
+        {"lockstep", no_argument, NULL, 'l'},
+        {"no-rt", no_argument, NULL, OPTION_NO_RT},
+        {"verbose", no_argument, NULL, 'v'},
+        {"help-options", no_argument, NULL, OPTION_HELP_OPTIONS},
+        {"version", no_argument, NULL, OPTION_VERSION},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0},
+    };
+    int option;
+
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, "c:s:u:lvh", words, NULL)) != -1) {
+        int status = take_option(arguments, option);
+        if (status >= 0)
+            return status;
+    }
+    if (optind < argc)
+        return wrong_usage("unexpected argument");
+    if (!arguments->config)
+        return wrong_usage("--config is missing");
+    return -1;
+}
+
+/* Another daemon on this bus would steer the same robot. */
+static int claim_bus(struct reachd *reachd, char *error, size_t error_size)
+{
+    reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
+    if (!reachd->lcm)
+        return -1;
+    switch (bus_claim_role(reachd->lcm, REACH_HELLO_T_DAEMON, claim_ms, &reachd->claim)) {
+    case 0:
+        return 0;
+    case 1:
+        snprintf(error, error_size, "another reachd is on this bus; end it first, or use --url");
+        return -1;
+    default:
+        snprintf(error, error_size, "the bus failed");
+        return -1;
+    }
+}
+
+static int check_model_directory(const struct config *config, char *error, size_t error_size)
+{
+    struct stat status;
+
+    if (!config->model_directory[0])
+        return 0;
+    if (stat(config->model_directory, &status) == 0 && S_ISDIR(status.st_mode))
+        return 0;
+    snprintf(error, error_size, "model.directory: %s is not a directory; make it first",
+             config->model_directory);
+    return -1;
+}
+
+/* All memory of the loop, in one piece. */
+static int build(struct reachd *reachd, char *error, size_t error_size)
+{
+    bool lockstep = reachd->arguments.lockstep;
+    bool real_time = !lockstep && !reachd->arguments.no_rt;
+
+    reachd->arena =
+        arena_create(tick_memory(&reachd->config) + daemon_bus_memory() + loop_memory());
+    if (!reachd->arena) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    reachd->tick = tick_create(&reachd->config, reachd->arena, error, error_size);
+    if (!reachd->tick)
+        return -1;
+    reachd->bus = daemon_bus_create(reachd->lcm, reachd->arena, error, error_size);
+    if (!reachd->bus)
+        return -1;
+    reachd->loop =
+        loop_create(&reachd->config, reachd->tick, reachd->bus, lockstep, real_time, reachd->arena);
+    if (!reachd->loop) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    log_info("%.1f MB for the loop, %s", (double)arena_used(reachd->arena) / 1e6,
+             lockstep    ? "lockstep"
+             : real_time ? "real time"
+                         : "real time without priority");
+    return 0;
+}
+
+static void tear_down(struct reachd *reachd)
+{
+    if (reachd->lcm)
+        lcm_destroy(reachd->lcm);
+    bus_claim_free(reachd->claim);
+    arena_destroy(reachd->arena);
+}
+
+static void say_what_is_awaited(const struct reachd *reachd)
+{
+    static int64_t waiting_since, said;
+    enum loop_wait waits = loop_waits(reachd->loop);
+    int64_t now = bus_monotonic_us();
+
+    if (waits != LOOP_WAITS_FOR_MARKER) {
+        waiting_since = 0;
+        return;
+    }
+    if (!waiting_since)
+        waiting_since = now;
+    if (now - waiting_since > patience_us && now - said > patience_us) {
+        log_warning("waiting for the marker that is due: is vision running?");
+        said = now;
+    }
+}
+
+/* Until a signal asks to end: what may block or write happens here. */
+static void keep_house(struct reachd *reachd, const sigset_t *signals)
+{
+    const struct timespec period = {.tv_nsec = (long)house_period_ms * 1000000};
+
+    for (;;) {
+        int signal = sigtimedwait(signals, NULL, &period);
+        if (signal == SIGINT || signal == SIGTERM)
+            return;
+        model_store_serve(tick_model_store(reachd->tick));
+        say_what_is_awaited(reachd);
+    }
+}
+
+static int run(struct reachd *reachd, char *error, size_t error_size)
+{
+    sigset_t signals;
+
+    /* Blocked before any thread starts, so that only housekeeping receives them. */
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, NULL);
+    if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size))
+        return -1;
+    if (daemon_bus_start(reachd->bus, error, error_size))
+        return -1;
+    if (loop_start(reachd->loop, error, error_size)) {
+        daemon_bus_stop(reachd->bus);
+        return -1;
+    }
+    log_info("ready");
+    keep_house(reachd, &signals);
+    loop_stop(reachd->loop);
+    daemon_bus_stop(reachd->bus);
+    log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    static struct reachd reachd;
+    char error[512] = "";
+    int status = parse(&reachd.arguments, argc, argv);
+
+    if (status >= 0)
+        return status;
+    log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
+    status = config_load(&reachd.config, reachd.arguments.config, reachd.arguments.overrides,
+                         reachd.arguments.n_overrides, error, sizeof error) ||
+             check_model_directory(&reachd.config, error, sizeof error) ||
+             run(&reachd, error, sizeof error);
+    if (status)
+        log_error("%s", error);
+    tear_down(&reachd);
+    return status ? 1 : 0;
+}

@@ -1,0 +1,150 @@
+#include "sight.h"
+
+#include <math.h>
+#include <string.h>
+
+void sight_init(struct sight *sight, const struct config *config)
+{
+    memset(sight, 0, sizeof *sight);
+    sight->config = config;
+    sight->newest = INT64_MIN;
+}
+
+void sight_forget(struct sight *sight)
+{
+    sight->count = 0;
+    sight->newest_seen = false;
+}
+
+bool sight_observe(struct sight *sight, const reach_marker_t *marker, const struct history *history)
+{
+    struct sight_frame frame = {.utime = marker->utime,
+                                .image = {marker->u_right, marker->v_right, marker->disparity}};
+
+    if (marker->utime <= sight->newest || !history_at(history, marker->utime, frame.q))
+        return false;
+    sight->newest = marker->utime;
+    sight->newest_seen = marker->seen;
+    if (!marker->seen) {
+        sight->count = 0;
+        return true;
+    }
+    sight->any = true;
+    sight->new_frame = true;
+    sight->last = (sight->last + 1) % SIGHT_FRAMES;
+    sight->frame[sight->last] = frame;
+    if (sight->count < SIGHT_FRAMES)
+        sight->count++;
+    return true;
+}
+
+void sight_carry(struct sight *sight, const double *q, const double *jacobian)
+{
+    const struct sight_frame *frame = &sight->frame[sight->last];
+    int n_arm = config_arm_joints(sight->config);
+    double moved[VISUAL_DIMENSIONS] = {0};
+    double shift[VISUAL_DIMENSIONS];
+
+    if (!sight->any)
+        return;
+    for (int row = 0; jacobian && row < VISUAL_DIMENSIONS; row++)
+        for (int i = 0; i < n_arm; i++)
+            moved[row] += jacobian[row * n_arm + i] * (q[i] - frame->q[i]);
+    moved[0] -= q[n_arm] - frame->q[n_arm];
+    moved[1] -= q[n_arm + 1] - frame->q[n_arm + 1];
+    task_to_visual(sight->config->pixels_per_radian, moved, shift);
+    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+        sight->carried[row] = frame->image[row] + shift[row];
+}
+
+bool sight_seen(const struct sight *sight, int64_t now)
+{
+    return sight->any && sight->newest_seen &&
+           (double)(now - sight->newest) * 1e-6 <= sight->config->eyes_stale;
+}
+
+/* The frame `age` places before the newest. */
+static const struct sight_frame *frame_at(const struct sight *sight, int age)
+{
+    return &sight->frame[(sight->last - age + SIGHT_FRAMES) % SIGHT_FRAMES];
+}
+
+static bool within_tolerance(const struct sight *sight, double u, double v)
+{
+    return fabs(u) <= sight->config->fixation_tolerance &&
+           fabs(v) <= sight->config->fixation_tolerance;
+}
+
+/* Largest minus least of one image axis, and its mean. */
+static double image_spread(const struct sight *sight, int n, int axis, double *mean)
+{
+    double least = INFINITY, greatest = -INFINITY, sum = 0;
+
+    for (int age = 0; age < n; age++) {
+        double value = frame_at(sight, age)->image[axis];
+        least = fmin(least, value);
+        greatest = fmax(greatest, value);
+        sum += value;
+    }
+    *mean = sum / n;
+    return greatest - least;
+}
+
+/* The same of a joint, as seen in the image: a joint that moves is not at rest either. */
+static double joint_spread(const struct sight *sight, int n, int joint)
+{
+    double least = INFINITY, greatest = -INFINITY;
+
+    for (int age = 0; age < n; age++) {
+        double value = frame_at(sight, age)->q[joint];
+        least = fmin(least, value);
+        greatest = fmax(greatest, value);
+    }
+    return (greatest - least) * sight->config->pixels_per_radian;
+}
+
+bool sight_fixated(const struct sight *sight)
+{
+    int n = sight->config->fixation_frames;
+    double mean[VISUAL_DIMENSIONS];
+
+    if (sight->count < n)
+        return false;
+    for (int axis = 0; axis < VISUAL_DIMENSIONS; axis++)
+        if (image_spread(sight, n, axis, &mean[axis]) > sight->config->fixation_rest)
+            return false;
+    for (int joint = 0; joint < config_joints(sight->config); joint++)
+        if (joint_spread(sight, n, joint) > sight->config->fixation_rest)
+            return false;
+    return within_tolerance(sight, mean[0], mean[1]);
+}
+
+bool sight_centred(const struct sight *sight)
+{
+    const double *image = sight->frame[sight->last].image;
+
+    return sight->count > 0 && within_tolerance(sight, image[0], image[1]);
+}
+
+void sight_pair(const struct sight *sight, int n, double *q, double *x, int64_t *utime)
+{
+    int n_arm = config_arm_joints(sight->config);
+    double image[VISUAL_DIMENSIONS] = {0};
+
+    memset(q, 0, sizeof(double) * (size_t)n_arm);
+    memset(x, 0, sizeof(double) * VISUAL_DIMENSIONS);
+    for (int age = n - 1; age >= 0; age--) {
+        const struct sight_frame *frame = frame_at(sight, age);
+        for (int i = 0; i < n_arm; i++)
+            q[i] += frame->q[i] / n;
+        x[0] += frame->q[n_arm] / n;
+        x[1] += frame->q[n_arm + 1] / n;
+        for (int axis = 0; axis < VISUAL_DIMENSIONS; axis++)
+            image[axis] += frame->image[axis] / n;
+    }
+    double residual[VISUAL_DIMENSIONS];
+    visual_to_task(sight->config->pixels_per_radian, image, residual);
+    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+        x[row] += residual[row];
+    *utime = (frame_at(sight, 0)->utime + frame_at(sight, n - 1)->utime) / 2;
+}

@@ -1,0 +1,66 @@
+#include "targets.h"
+
+#include <reach_status_t.h>
+
+void targets_start(struct behaviour *behaviour, const reach_request_t *request,
+                   struct control *control)
+{
+    struct targets *targets = &behaviour->targets;
+
+    (void)control;
+    targets->n = request->n_targets;
+    for (int i = 0; i < targets->n; i++) {
+        targets->target[i][0] = request->u[i];
+        targets->target[i][1] = request->v[i];
+        targets->target[i][2] = request->disparity[i];
+    }
+    targets->period = (int64_t)(request->period * 1e6);
+    targets->go_to_centre = request->count == 1;
+    behaviour->progress.total = targets->n;
+    behaviour->progress.phase = targets->go_to_centre ? REACH_STATUS_T_MOVE : REACH_STATUS_T_FIXATE;
+}
+
+void targets_refixate(struct behaviour *behaviour)
+{
+    behaviour->targets.deadline = 0;
+    behaviour->progress.phase = REACH_STATUS_T_FIXATE;
+}
+
+bool targets_prepare(struct behaviour *behaviour, struct control *control)
+{
+    struct progress *progress = &behaviour->progress;
+    double centre[MAX_JOINTS];
+
+    if (progress->phase == REACH_STATUS_T_MOVE) {
+        control_babble_centre(control->config, centre);
+        if (control_arm_to(control, centre))
+            progress->phase = REACH_STATUS_T_FIXATE;
+        control_gaze(control, false);
+        return false;
+    }
+    if (control_gaze(control, true) == GAZE_SEARCHING)
+        progress->phase = REACH_STATUS_T_SEARCH;
+    else
+        progress->phase = REACH_STATUS_T_FIXATE;
+    if (!sight_fixated(control->sight))
+        return false;
+    progress->phase = REACH_STATUS_T_TRACK;
+    return true;
+}
+
+const double *targets_current(struct behaviour *behaviour, struct control *control, bool *is_new)
+{
+    struct targets *targets = &behaviour->targets;
+    struct progress *progress = &behaviour->progress;
+
+    *is_new = targets->deadline == 0;
+    if (!*is_new && control->now >= targets->deadline) {
+        progress->done++;
+        *is_new = true;
+    }
+    if (progress->done >= targets->n)
+        return NULL;
+    if (*is_new)
+        targets->deadline = control->now + targets->period;
+    return targets->target[progress->done];
+}

@@ -1,0 +1,206 @@
+#include "tick.h"
+
+#include "behaviour.h"
+#include "gaze.h"
+#include "history.h"
+#include "inputs.h"
+#include "motion.h"
+#include "safety.h"
+#include "select.h"
+#include "sight.h"
+#include "supervisor.h"
+#include "tick_private.h"
+#include "training.h"
+
+#include <math.h>
+#include <string.h>
+
+size_t tick_memory(const struct config *config)
+{
+    struct learner_config learner = config_learner(config);
+    size_t learner_bytes = learner_memory(&learner);
+
+    return arena_footprint(sizeof(struct tick)) + learner_bytes +
+           model_store_memory(learner_bytes) + training_memory(config->learner_queue);
+}
+
+struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+                         size_t error_size)
+{
+    struct learner_config learner = config_learner(config);
+    const double scale[] = {config->scale_angle, config->scale_angle, config->scale_disparity};
+    struct tick *tick = arena_alloc(arena, sizeof *tick);
+
+    if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    tick->config = config;
+    tick->learner = learner_create(&learner, arena, error, error_size);
+    if (!tick->learner)
+        return NULL;
+    tick->store = model_store_create(config->model_directory, learner_memory(&learner), arena);
+    if (!tick->store) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    history_init(&tick->history, config_joints(config));
+    sight_init(&tick->sight, config);
+    select_init(&tick->selection, config_arm_joints(config), VISUAL_DIMENSIONS, scale);
+    gaze_init(&tick->gaze, config);
+    safety_init(&tick->safety, config);
+    return tick;
+}
+
+struct model_store *tick_model_store(struct tick *tick)
+{
+    return tick->store;
+}
+
+bool tick_learn(struct tick *tick)
+{
+    if (!training_learn_one(&tick->training, tick->learner))
+        return false;
+    tick->learned_now++;
+    return true;
+}
+
+/* The robot's clock was set back: what was seen belongs to another time. */
+static void begin_anew(struct tick *tick)
+{
+    history_init(&tick->history, config_joints(tick->config));
+    sight_init(&tick->sight, tick->config);
+    gaze_init(&tick->gaze, tick->config);
+    tick->selection.moved_from = false;
+}
+
+/* Takes the state in. A bad one is dropped, the last good one kept until it is stale. */
+static void take_state(struct tick *tick, const struct tick_inputs *inputs)
+{
+    const reach_robot_state_t *state = &inputs->state;
+
+    tick->state_seq_now = 0;
+    if (!inputs->has_state)
+        return;
+    if (!inputs_state_ok(tick->config, state)) {
+        tick->bad_inputs++;
+        return;
+    }
+    if (tick->state_known && state->utime <= tick->state_utime)
+        begin_anew(tick);
+    tick->state_utime = state->utime;
+    tick->state_seq_now = state->seq;
+    tick->state_seq = state->seq;
+    tick->state_known = true;
+    memcpy(tick->q, state->position, sizeof tick->q);
+    history_push(&tick->history, state->utime, state->position);
+}
+
+static void take_markers(struct tick *tick, const struct tick_inputs *inputs)
+{
+    tick->marker_seq_now = 0;
+    tick->sight.new_frame = false;
+    for (int i = 0; i < inputs->n_markers; i++) {
+        if (!inputs_marker_ok(&inputs->marker[i]))
+            tick->bad_inputs++;
+        else if (sight_observe(&tick->sight, &inputs->marker[i], &tick->history))
+            tick->marker_seq_now = inputs->marker[i].seq;
+    }
+}
+
+/* Predicts at the present joints, chooses the solution, carries the marker to now. */
+static void sense(struct tick *tick)
+{
+    if (tick->state_seq_now) {
+        select_integrate(&tick->selection, tick->q);
+        select_solution(&tick->selection, tick->learner, tick->q);
+    }
+    sight_carry(&tick->sight, tick->q, select_jacobian(&tick->selection));
+}
+
+static uint32_t conditions(const struct tick *tick, const struct tick_inputs *inputs)
+{
+    uint32_t set = 0;
+
+    if (tick->state_known)
+        set |= CONDITION_STATE_KNOWN;
+    if (inputs->state_age <= tick->config->state_hold)
+        set |= CONDITION_STATE_FRESH;
+    if (inputs->state_age <= tick->config->state_suspend)
+        set |= CONDITION_STATE_ALIVE;
+    if (tick->behaviour.ops)
+        set |= CONDITION_BUSY;
+    if (inputs->overrunning)
+        set |= CONDITION_OVERRUNNING;
+    if (tick->reset_requested)
+        set |= CONDITION_RESET_REQUESTED;
+    return set;
+}
+
+static void supervise(struct tick *tick, const struct tick_inputs *inputs)
+{
+    tick->state = supervisor_next(tick->state, conditions(tick, inputs));
+    tick->reset_requested = false;
+    /* A fault ends the work: what was wanted before it may no longer be. */
+    if (tick->state == SUPERVISOR_FAULT)
+        tick->behaviour.ops = NULL;
+}
+
+/* What the behaviour wants, shaped; nothing when none may run. */
+static void behave(struct tick *tick, struct control *control)
+{
+    const struct config *config = tick->config;
+    int n_arm = config_arm_joints(config);
+
+    if (tick->state != SUPERVISOR_ACTIVE || !tick->behaviour.ops)
+        return;
+    if (!tick->behaviour.ops->step(&tick->behaviour, control)) {
+        tick->behaviour.ops = NULL;
+        memset(control->velocity, 0, sizeof control->velocity);
+    }
+    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, control->velocity);
+    motion_shape(config, n_arm, HEAD_JOINTS, tick->q, tick->safety.previous, control->velocity);
+}
+
+static void command(struct tick *tick, const struct control *control, int64_t now,
+                    struct tick_outputs *outputs)
+{
+    reach_robot_command_t *command = &outputs->command;
+
+    outputs->has_command = tick->state_known;
+    *command = (reach_robot_command_t){.utime = now,
+                                       .seq = tick->seq,
+                                       .state_seq = tick->state_seq,
+                                       .n_joints = config_joints(tick->config)};
+    memcpy(command->velocity, control->velocity, sizeof command->velocity);
+    safety_gate(&tick->safety, tick->q, command->velocity);
+}
+
+void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
+                 struct tick_outputs *outputs)
+{
+    struct control control = {
+        .config = tick->config,
+        .now = now,
+        .q = tick->q,
+        .previous = tick->safety.previous,
+        .sight = &tick->sight,
+        .selection = &tick->selection,
+        .gaze = &tick->gaze,
+    };
+
+    tick->seq++;
+    tick->learned_now = 0;
+    outputs->has_sample = false;
+    take_state(tick, inputs);
+    take_markers(tick, inputs);
+    sense(tick);
+    tick_take_requests(tick, inputs, &control);
+    supervise(tick, inputs);
+    behave(tick, &control);
+    if (control.has_pair)
+        tick_take_pair(tick, &control.pair, outputs);
+    tick->has_target = control.has_target;
+    memcpy(tick->target, control.target, sizeof tick->target);
+    command(tick, &control, now, outputs);
+}

@@ -1,0 +1,69 @@
+/* One control step: what, not when. A function of (state, inputs, now) that reads no clock, does no
+ * input or output and allocates nothing.
+ *
+ * A tick has three calls, in this order: tick_decide makes the command, which can leave at once;
+ * tick_learn spends what is left of the period; tick_report says what happened. */
+#ifndef REACH_TICK_H
+#define REACH_TICK_H
+
+#include "arena.h"
+#include "config.h"
+#include "model_store.h"
+
+#include <reach_marker_t.h>
+#include <reach_request_t.h>
+#include <reach_robot_command_t.h>
+#include <reach_robot_state_t.h>
+#include <reach_sample_t.h>
+#include <reach_status_t.h>
+#include <reach_trace_t.h>
+#include <stdbool.h>
+
+#define TICK_MAX_MARKERS 8
+#define TICK_MAX_REQUESTS 8
+
+/* What has come since the tick before, in order of arrival. */
+struct tick_inputs {
+    bool has_state;
+    reach_robot_state_t state;
+    double state_age; /* of the newest state ever received, s; INFINITY = none yet */
+    int n_markers;
+    reach_marker_t marker[TICK_MAX_MARKERS];
+    int n_requests;
+    reach_request_t request[TICK_MAX_REQUESTS];
+    bool overrunning; /* the loop was late too often */
+};
+
+struct tick_outputs {
+    bool has_command;
+    reach_robot_command_t command;
+    bool has_sample;
+    reach_sample_t sample;
+    reach_status_t status; /* fields of time (compute, wake-up, overruns) are the loop's to fill */
+    reach_trace_t trace;
+};
+
+struct tick;
+
+/* Bytes that tick_create takes from an arena. */
+size_t tick_memory(const struct config *config);
+
+/* Everything of the control step, owned by the arena. `config` is kept, not copied.
+ * Returns NULL with one line in `error`. */
+struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+                         size_t error_size);
+
+/* Senses, supervises, decides. Fills command and sample. */
+void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
+                 struct tick_outputs *outputs);
+
+/* Learns one sample of those that wait. Returns false when none does. */
+bool tick_learn(struct tick *tick);
+
+/* Fills status and trace of the tick just decided. */
+void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs);
+
+/* The store that housekeeping must serve. */
+struct model_store *tick_model_store(struct tick *tick);
+
+#endif

@@ -1,0 +1,57 @@
+/* The control step's state, for the files that make it up: tick.c (the order of the step),
+ * tick_requests.c (what users ask), tick_report.c (samples, status and trace). */
+#ifndef REACH_TICK_PRIVATE_H
+#define REACH_TICK_PRIVATE_H
+
+#include "behaviour.h"
+#include "gaze.h"
+#include "history.h"
+#include "safety.h"
+#include "select.h"
+#include "sight.h"
+#include "supervisor.h"
+#include "tick.h"
+#include "training.h"
+
+struct tick {
+    const struct config *config;
+    struct learner *learner;
+    struct model_store *store;
+    struct training training;
+    struct history history;
+    struct sight sight;
+    struct selection selection;
+    struct gaze gaze;
+    struct safety safety;
+    struct behaviour behaviour;
+    struct learner_prediction pair_prediction; /* too large for the stack */
+
+    enum supervisor_state state;
+    bool state_known;
+    bool reset_requested;
+    double q[MAX_JOINTS]; /* newest good state, rad */
+    int64_t seq;          /* ticks so far */
+    int64_t state_seq;    /* newest good state */
+    int64_t state_utime;  /* its time, us */
+    int64_t sample_seq;
+    int64_t bad_inputs;
+
+    int64_t request_seq;   /* newest looked at */
+    int8_t request_result; /* constants of status_t */
+
+    /* This tick's, for the trace. */
+    int64_t state_seq_now, marker_seq_now, request_seq_now;
+    int32_t learned_now;
+    bool has_target;
+    double target[VISUAL_DIMENSIONS];
+};
+
+/* Looks at the requests that came, and at what became of a save or load. */
+void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
+                        struct control *control);
+
+/* A behaviour gathered a pair: report it with the prediction made before it is learned, queue it
+ * for learning unless the model is frozen, and let the context follow it. */
+void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs);
+
+#endif

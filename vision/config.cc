@@ -1,0 +1,121 @@
+#include "vision/config.h"
+
+#include "common/options.h"
+
+#define AT(field) offsetof(vision_config, field)
+#define NUMBER(name, field, unit, initial, low, high, help)                                        \
+    {name, OPTION_NUMBER, AT(field), unit, initial, low, high, help, nullptr}
+#define WHOLE(name, field, unit, initial, low, high, help)                                         \
+    {name, OPTION_INT, AT(field), unit, initial, low, high, help, nullptr}
+
+/* The rows of one eye. */
+#define EYE_ROWS(eye)                                                                              \
+    NUMBER(#eye ".focal", eye##_focal, "px", "1200", 50, 20000, "focal length"),                   \
+        NUMBER(#eye ".centre_u", eye##_centre_u, "px", "0", -1000, 1000,                           \
+               "optical axis to the right of the image centre; the marker counts from it"),        \
+        NUMBER(#eye ".centre_v", eye##_centre_v, "px", "0", -1000, 1000,                           \
+               "optical axis below the image centre; the marker counts from it"),                  \
+        NUMBER(#eye ".k1", eye##_k1, nullptr, "0", -2, 2,                                          \
+               "radial distortion, factor of the squared slope of a line of sight"),               \
+        NUMBER(#eye ".k2", eye##_k2, nullptr, "0", -2, 2,                                          \
+               "radial distortion, factor of the fourth power of that slope")
+
+static const struct option_row table[] = {
+    WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
+    WHOLE("camera.height", height, "px", "480", 32, 4096, "height of both cameras' pictures"),
+    EYE_ROWS(left),
+    EYE_ROWS(right),
+    NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,
+           "angle by which the optical axes turn towards each other"),
+    NUMBER("eyes.baseline", baseline, "m", "0.09", 0.001, 2, "distance between the eyes"),
+    NUMBER("ball.hue", hue, "deg", "120", 0, 360, "middle of the ball's hue: 0 red, 120 green"),
+    NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180, "hue may be off by this"),
+    NUMBER("ball.saturation_min", saturation_min, nullptr, "0.4", 0, 1, "paler is not the ball"),
+    NUMBER("ball.saturation_max", saturation_max, nullptr, "1", 0, 1, "purer is not the ball"),
+    NUMBER("ball.value_min", value_min, nullptr, "0.12", 0, 1, "darker is not the ball"),
+    NUMBER("ball.radius", ball_radius, "m", "0", 0, 1,
+           "the ball's true radius, 0 = not known; a thing of other size is then refused"),
+    NUMBER("ball.radius_min", radius_min, "px", "8", 4, 1000, "smallest apparent radius"),
+    NUMBER("ball.radius_max", radius_max, "px", "110", 8, 2000, "largest apparent radius"),
+    NUMBER("ball.coverage_min", coverage_min, nullptr, "0.5", 0.15, 1,
+           "share of the outline that must be seen"),
+    NUMBER("ball.fill_min", fill_min, nullptr, "0.5", 0.05, 1,
+           "share of the disc that must have the ball's colour"),
+    NUMBER("ball.roughness", roughness, "px", "0.8", 0.05, 10,
+           "largest rms distance of the seen edge from a ball's outline"),
+    NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
+           "the eyes may disagree on the ball's height by this, vergence taken out"),
+    NUMBER("check.size", size_tolerance, nullptr, "0.15", 0.01, 1,
+           "the eyes may disagree on the ball's size by this share"),
+    NUMBER("check.disparity_min", disparity_min, "px", "-300", -4000, 4000, "smallest disparity"),
+    NUMBER("check.disparity_max", disparity_max, "px", "300", -4000, 4000, "largest disparity"),
+    NUMBER("track.margin", window_margin, "px", "24", 4, 1000,
+           "the window reaches this far around the expected ball"),
+    NUMBER("track.growth", window_growth, "px/s", "300", 0, 10000,
+           "the window's reach grows while the ball is not seen"),
+    NUMBER("track.memory", memory, "s", "0.5", 0, 2,
+           "after this time unseen the ball is looked for everywhere at once"),
+    WHOLE("track.window_step", window_step, "px", "3", 1, 8,
+          "every n-th pixel of a window is looked at before the close look"),
+    WHOLE("track.whole_step", whole_step, "px", "4", 1, 8,
+          "every n-th pixel of a whole picture is looked at before the close look"),
+    WHOLE("track.recheck", recheck, "pairs", "30", 0, 100000,
+          "after this many pairs in windows the whole pictures are looked at once"),
+    NUMBER("bus.drop_after", drop_after, "s", "0.05", 0, 10,
+           "live pairs that waited longer are passed over; 0 = never. Only pairs stamped with the "
+           "present time are live: simulated time is never passed over"),
+    NUMBER("video.rate", video_rate, "1/s", "0", 0, 1000,
+           "pairs a second from video files; 0 = as fast as they are seen"),
+    OPTION_END,
+};
+
+static const char *contradiction(const vision_config &config)
+{
+    if (config.radius_min >= config.radius_max)
+        return "ball.radius_min must be less than ball.radius_max";
+    if (config.saturation_min >= config.saturation_max)
+        return "ball.saturation_min must be less than ball.saturation_max";
+    if (config.disparity_min >= config.disparity_max)
+        return "check.disparity_min must be less than check.disparity_max";
+    return nullptr;
+}
+
+int config_load(vision_config *config, const char *path, const char *const *overrides,
+                int n_overrides, char *error, size_t error_size)
+{
+    if (options_load(table, config, path, overrides, n_overrides, error, error_size))
+        return -1;
+    const char *wrong = contradiction(*config);
+    if (wrong)
+        snprintf(error, error_size, "%s: %s", path ? path : "options", wrong);
+    return wrong ? -1 : 0;
+}
+
+void config_print(FILE *out)
+{
+    options_print(table, out);
+}
+
+eyes_config config_eyes(const vision_config &c)
+{
+    eyes_config result;
+
+    result.colour = {c.hue, c.hue_tolerance, c.saturation_min, c.saturation_max, c.value_min};
+    result.limits = {c.radius_min, c.radius_max, c.coverage_min, c.fill_min, c.roughness};
+    result.rig.left = {c.width,         c.height,  c.left_focal, c.left_centre_u,
+                       c.left_centre_v, c.left_k1, c.left_k2};
+    result.rig.right = {c.width,          c.height,   c.right_focal, c.right_centre_u,
+                        c.right_centre_v, c.right_k1, c.right_k2};
+    result.rig.vergence = c.vergence;
+    result.rig.baseline = c.baseline;
+    result.rig.ball_radius = c.ball_radius;
+    result.rig.height_tolerance = c.height_tolerance;
+    result.rig.size_tolerance = c.size_tolerance;
+    result.rig.disparity_min = c.disparity_min;
+    result.rig.disparity_max = c.disparity_max;
+    result.window = {c.window_margin, c.window_growth, static_cast<int64_t>(c.memory * 1e6)};
+    result.window_step = c.window_step;
+    result.whole_step = c.whole_step;
+    result.recheck = c.recheck;
+    return result;
+}
