@@ -4,9 +4,13 @@
 
 #define AT(field) offsetof(vision_config, field)
 #define NUMBER(name, field, unit, initial, low, high, help)                                        \
-    {name, OPTION_NUMBER, AT(field), unit, initial, low, high, help, nullptr}
+    {                                                                                              \
+        name, OPTION_NUMBER, AT(field), unit, initial, low, high, help, nullptr                    \
+    }
 #define WHOLE(name, field, unit, initial, low, high, help)                                         \
-    {name, OPTION_INT, AT(field), unit, initial, low, high, help, nullptr}
+    {                                                                                              \
+        name, OPTION_INT, AT(field), unit, initial, low, high, help, nullptr                       \
+    }
 
 /* The rows of one eye. */
 #define EYE_ROWS(eye)                                                                              \
@@ -66,7 +70,7 @@ static const struct option_row table[] = {
            "present time are live: simulated time is never passed over"),
     NUMBER("video.rate", video_rate, "1/s", "0", 0, 1000,
            "pairs a second from video files; 0 = as fast as they are seen"),
-    OPTION_END,
+    {nullptr, OPTION_BOOL, 0, nullptr, nullptr, 0, 0, nullptr, nullptr},
 };
 
 static const char *contradiction(const vision_config &config)

@@ -1,0 +1,208 @@
+#include <lcm/lcm.h>
+#include <opencv2/core.hpp>
+#include <reach_hello_t.h>
+#include <reach_marker_t.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "common/bus.h"
+#include "common/log.h"
+#include "vision/arguments.h"
+#include "vision/bench.h"
+#include "vision/config.h"
+#include "vision/observer.h"
+#include "vision/receive_buffer.h"
+#include "vision/show.h"
+
+static const int claim_wait_ms = 300;
+static const int poll_ms = 100;
+static const int64_t report_period = 60000000; /* us */
+
+static volatile sig_atomic_t stop_asked;
+
+namespace
+{
+/* Puts markers on the bus, and pictures on the screen where somebody wants them. */
+class bus_publisher : public marker_receiver
+{
+public:
+    bus_publisher(lcm_t *lcm, bool show) : lcm_(lcm), show_(show) {}
+
+    void publish(const reach_marker_t &marker) override
+    {
+        if (reach_marker_t_publish(lcm_, "MARKER", &marker) < 0)
+            log_warning("LCM could not send a marker");
+    }
+
+    void show(const image_view &left, const image_view &right, const eyes &who,
+              const reach_marker_t &marker) override
+    {
+        static const char *const reasons[] = {
+            "seen",         "not in the right image", "not in the left image", "heights differ",
+            "sizes differ", "disparity out of range", "images unusable"};
+        char caption[160];
+
+        if (!show_)
+            return;
+        snprintf(caption, sizeof caption, "%s  u %.1f  v %.1f  disparity %.1f  radius %.1f px",
+                 reasons[marker.reason], marker.u_right, marker.v_right, marker.disparity,
+                 marker.radius);
+        if (show_window(show_draw(left, right, who, marker.seen, caption)))
+            return;
+        log_warning("the display refuses the window; going on without it");
+        show_ = false;
+    }
+
+private:
+    lcm_t *lcm_;
+    bool show_;
+};
+} // namespace
+
+static void ask_stop(int)
+{
+    stop_asked = 1;
+}
+
+static void catch_signals()
+{
+    struct sigaction action = {};
+
+    action.sa_handler = ask_stop;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+static std::unique_ptr<source> open_source(const arguments &given, const vision_config &config,
+                                           lcm_t *lcm, pair_receiver *receiver)
+{
+    const camera eye = config_eyes(config).rig.left;
+    std::unique_ptr<source> pairs;
+    char error[512] = "";
+
+    if (given.cameras)
+        pairs = source_cameras(given.left, given.right, eye, receiver, error, sizeof error);
+    else if (given.videos)
+        pairs = source_videos(given.left, given.right, config.video_rate, receiver, error,
+                              sizeof error);
+    else
+        pairs = source_bus(lcm, "STEREO_IMAGES", receiver, error, sizeof error);
+    if (!pairs)
+        log_error("%s", error);
+    return pairs;
+}
+
+static void report(const statistics &counts)
+{
+    char line[512];
+
+    statistics_line(counts, line, sizeof line);
+    log_info("%s", line);
+}
+
+/* Until a signal or the end of the pairs. Returns the exit code. */
+static int serve(source *pairs, lcm_t *lcm, bool own_pace, const statistics &counts)
+{
+    int64_t reported = bus_monotonic_us();
+    source_state state = SOURCE_OPEN;
+
+    while (!stop_asked && state == SOURCE_OPEN) {
+        state = pairs->poll(poll_ms);
+        /* Pairs that do not come over the bus leave the questions of others unanswered there. */
+        if (own_pace && lcm_handle_timeout(lcm, 0) < 0)
+            state = SOURCE_FAILED;
+        if (bus_monotonic_us() - reported < report_period)
+            continue;
+        reported = bus_monotonic_us();
+        report(counts);
+    }
+    if (state == SOURCE_FAILED && !stop_asked) {
+        log_error("pairs of pictures cannot be had any more");
+        return 1;
+    }
+    return 0;
+}
+
+static int write_stats(const char *path, const statistics &counts)
+{
+    FILE *out = fopen(path, "w");
+
+    if (out) {
+        statistics_json(counts, out);
+        if (fclose(out) == 0)
+            return 0;
+    }
+    log_error("%s: %s", path, strerror(errno));
+    return 1;
+}
+
+static int run(const arguments &given, const vision_config &config, lcm_t *lcm)
+{
+    bus_publisher publisher(lcm, given.show);
+    observer seer(config_eyes(config), static_cast<int64_t>(config.drop_after * 1e6), &publisher);
+    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &seer);
+
+    if (!pairs)
+        return 1;
+    log_info("ready");
+    int code = serve(pairs.get(), lcm, given.cameras || given.videos, seer.counts());
+    report(seer.counts());
+    if (given.stats && write_stats(given.stats, seer.counts()))
+        code = 1;
+    return code;
+}
+
+static int run_on_bus(const arguments &given, const vision_config &config)
+{
+    struct bus_claim *claim = nullptr;
+    char error[512];
+    int code = 1;
+    lcm_t *lcm = bus_open(receive_buffer_url(given.url).c_str(), error, sizeof error);
+
+    if (!lcm) {
+        log_error("%s", error);
+        return 1;
+    }
+    const int taken = bus_claim_role(lcm, REACH_HELLO_T_VISION, claim_wait_ms, &claim);
+    if (taken > 0)
+        log_error("another vision is on this bus; end it, or name another bus with --url");
+    else if (taken < 0)
+        log_error("LCM failed while asking for other vision processes");
+    else
+        code = run(given, config, lcm);
+    lcm_destroy(lcm);
+    bus_claim_free(claim);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    arguments given;
+    vision_config config;
+    char error[512];
+    const int code = arguments_parse(argc, argv, &given);
+
+    if (code >= 0)
+        return code;
+    log_open("vision", LOG_LEVEL_INFO);
+    if (config_load(&config, given.config, given.overrides.data(),
+                    static_cast<int>(given.overrides.size()), error, sizeof error)) {
+        log_error("%s", error);
+        return 1;
+    }
+    cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
+    if (given.bench)
+        return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;
+    if (given.show && !show_possible()) {
+        log_error("--show: no display (DISPLAY and WAYLAND_DISPLAY are not set)");
+        return 1;
+    }
+    catch_signals();
+    receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
+                         6);
+    return run_on_bus(given, config);
+}
