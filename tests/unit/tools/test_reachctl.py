@@ -1,0 +1,161 @@
+"""reachctl against a scripted daemon and simulator on a bus of their own."""
+
+import json
+import os
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import lcm
+from reach.bus import DEFAULT_URL
+from reach.messages import reach
+
+REACHCTL = Path(os.environ["REACH_BUILD_DIR"]) / "bin/reachctl"
+
+
+class Scripted(threading.Thread):
+    """Answers requests the way daemon and simulator do; a behaviour takes three statuses."""
+
+    def __init__(self, result: int = reach.status_t.ACCEPTED):
+        super().__init__(daemon=True)
+        self.result = result
+        self.requests: list[reach.request_t] = []
+        self.sim_requests: list[reach.sim_request_t] = []
+        self._busy = 0
+        self._halt = threading.Event()
+        self._lcm = lcm.LCM(DEFAULT_URL)
+        self._lcm.subscribe("REACH_REQUEST", self._on_request)
+        self._lcm.subscribe("SIM_REQUEST", self._on_sim_request)
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        self._halt.set()
+        self.join()
+
+    def _on_request(self, _, data):
+        self.requests.append(reach.request_t.decode(data))
+        self._busy = 3
+
+    def _on_sim_request(self, _, data):
+        self.sim_requests.append(reach.sim_request_t.decode(data))
+
+    def run(self):
+        while not self._halt.is_set():
+            self._lcm.handle_timeout(20)
+            self._publish_status()
+            truth = reach.sim_truth_t()
+            truth.request_seq = self.sim_requests[-1].seq if self.sim_requests else 0
+            self._lcm.publish("SIM_TRUTH", truth.encode())
+
+    def _publish_status(self):
+        status = reach.status_t()
+        status.state, status.n_outputs, status.experts = reach.status_t.IDLE, 3, 7
+        status.staleness = float("inf")
+        status.request_result = self.result
+        if self.requests:
+            status.request_seq = self.requests[-1].seq
+        self._busy = max(0, self._busy - 1)
+        status.behaviour = reach.status_t.REACH if self._busy else reach.status_t.NONE
+        self._lcm.publish("REACH_STATUS", status.encode())
+
+
+def reachctl(*words: str) -> subprocess.CompletedProcess:
+    command = [REACHCTL, *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=20)
+
+
+class Reachctl(unittest.TestCase):
+    def refused(self, *words: str) -> str:
+        """Wrong usage: code 2 and one line."""
+        result = reachctl(*words)
+        self.assertEqual(result.returncode, 2, words)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result.stderr
+
+    def test_wrong_usage_gets_one_line_and_code_2(self):
+        self.assertIn("unknown command 'fly'", self.refused("fly"))
+        self.assertIn("usage: reachctl babble N", self.refused("babble"))
+        self.assertIn("whole number", self.refused("babble", "1.5"))
+        self.assertIn("number from", self.refused("reach", "a", "0", "0"))
+        self.assertIn("usage: reachctl sim attach TOOL", self.refused("sim", "attach"))
+        self.assertIn("seconds", self.refused("--timeout", "-1", "status"))
+        self.assertIn("unrecognized option", self.refused("--fly"))
+        self.assertIn("a command is wanted", self.refused())
+
+    def test_help_and_version(self):
+        self.assertIn("sim run-until T", reachctl("--help").stdout)
+        self.assertRegex(reachctl("--version").stdout, r"^reachctl \d+\.\d+\.\d+ \(.+\)\n$")
+
+    def test_silence_is_told(self):
+        result = reachctl("--timeout", "0.2", "stop")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no answer from reachd", result.stderr)
+        result = reachctl("--timeout", "0.2", "sim", "reset")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no answer from simrobot", result.stderr)
+
+    def test_status_as_json(self):
+        with Scripted():
+            result = reachctl("status", "--json")
+        status = json.loads(result.stdout)
+        self.assertEqual(status["state"], "idle")
+        self.assertEqual(status["experts"], 7)
+        self.assertIsNone(status["staleness"])
+        self.assertEqual(len(status["x_predicted"]), 3)
+
+    def test_what_is_sent(self):
+        with Scripted() as daemon:
+            for words in (["babble", "20", "--seed", "9", "--frozen"], ["star", "--period", "3"],
+                          ["reach", "-50", "10", "2.5"], ["save", "4"]):  # fmt: skip
+                self.assertEqual(reachctl(*words).returncode, 0, words)
+        babble, star, single, save = daemon.requests
+        self.assertEqual((babble.kind, babble.count, babble.seed, babble.learn), (1, 20, 9, 0))
+        self.assertEqual((star.kind, star.count, star.n_targets, star.period), (3, 1, 16, 3.0))
+        self.assertEqual((star.u[2], star.v[2], star.u[3], star.v[3]), (50, 50, 0, 0))
+        self.assertEqual((single.n_targets, single.u[0], single.v[0], single.disparity[0]),
+                         (1, -50, 10, 2.5))  # fmt: skip
+        self.assertEqual((single.count, single.learn), (0, 1))
+        self.assertEqual((save.kind, save.count), (4, 4))
+
+    def test_what_the_simulator_is_told(self):
+        with Scripted() as simulator:
+            for words in (["attach", "1"], ["detach"], ["light", "0.5"], ["run-until", "2.5"]):
+                self.assertEqual(reachctl("sim", *words).returncode, 0, words)
+        attach, detach, light, until = simulator.sim_requests
+        self.assertEqual((attach.kind, attach.tool), (0, 1))
+        self.assertEqual((detach.kind, detach.tool), (0, 0))
+        self.assertEqual((light.kind, light.value), (2, 0.5))
+        self.assertEqual((until.kind, until.until), (6, 2_500_000))
+
+    def test_refusal_is_told(self):
+        with Scripted(reach.status_t.REFUSED_VALUE):
+            result = reachctl("babble", "5")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("refused, a value is out of range", result.stderr)
+
+    def test_waiting_ends_with_the_behaviour(self):
+        with Scripted():
+            start = time.monotonic()
+            self.assertEqual(reachctl("star", "--wait").returncode, 0)
+        self.assertLess(time.monotonic() - start, 5)
+
+    def test_targets_from_a_file(self):
+        with tempfile.TemporaryDirectory() as folder, Scripted() as daemon:
+            path = Path(folder) / "targets"
+            path.write_text("# u v disparity\n10 -20 0\n\n-5 5 1.5 # near\n")
+            self.assertEqual(reachctl("coordinate", "--file", path).returncode, 0)
+            path.write_text("10 20 0\n10 20\n")
+            self.assertIn("targets:2:", self.refused("coordinate", "--file", path))
+        request = daemon.requests[0]
+        self.assertEqual((request.n_targets, request.u[1], request.disparity[1]), (2, -5, 1.5))
+        self.assertEqual(request.period, 2.0)
+
+
+if __name__ == "__main__":
+    unittest.main()

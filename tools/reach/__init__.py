@@ -1,0 +1,1 @@
+"""Experiments with reachd and reports on them."""

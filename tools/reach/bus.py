@@ -1,0 +1,140 @@
+"""A client on the bus: what daemon and simulator said last, and requests that are answered."""
+
+import random
+import time
+from collections.abc import Callable
+
+import lcm
+
+from .messages import bot_core, reach
+
+DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
+RESEND_SECONDS = 2.0  # a request that nobody looked at is sent again, which changes nothing
+GIVE_UP_SECONDS = 30.0
+
+
+class NoAnswerError(Exception):
+    """Somebody on the bus is silent."""
+
+
+class Bus:
+    """`check` is called while waiting; it raises when a process has died."""
+
+    def __init__(self, url: str = DEFAULT_URL, check: Callable[[], None] = lambda: None):
+        self._lcm = lcm.LCM(url)
+        self._check = check
+        self._request_seq = 0
+        self._sim_seq = 0
+        self._images: list = []
+        self._image_subscription = None
+        self.status: reach.status_t | None = None
+        self.truth: reach.sim_truth_t | None = None
+        self.marker: reach.marker_t | None = None
+        self.samples: list = []
+        self._roles: dict[int, int] = {}
+        self._listen("REACH_STATUS", reach.status_t, lambda m: setattr(self, "status", m))
+        self._listen("SIM_TRUTH", reach.sim_truth_t, lambda m: setattr(self, "truth", m))
+        self._listen("MARKER", reach.marker_t, lambda m: setattr(self, "marker", m))
+        self._listen("REACH_SAMPLE", reach.sample_t, self.samples.append)
+        self._listen("REACH_HELLO", reach.hello_t, self._on_hello)
+
+    def _listen(self, channel: str, kind, take: Callable):
+        return self._lcm.subscribe(channel, lambda _, data: take(kind.decode(data)))
+
+    def _on_hello(self, hello) -> None:
+        if hello.answer:
+            self._roles[hello.role] = hello.instance
+
+    def handle(self, seconds: float) -> None:
+        """Takes in what comes during this time, at least what is there already."""
+        end = time.monotonic() + seconds
+        while self._lcm.handle_timeout(max(0, int((end - time.monotonic()) * 1000))) > 0:
+            if time.monotonic() >= end:
+                break
+
+    def wait(self, done: Callable[[], bool], who: str, resend: Callable[[], None],
+             progress: Callable[[], object] = lambda: None) -> None:  # fmt: skip
+        """Handles messages until done(), sending again while progress() stands still.
+
+        NoAnswerError names `who` when it has stood still for long.
+        """
+        moved = sent = time.monotonic()
+        last = progress()
+        resend()
+        while not done():
+            self._lcm.handle_timeout(100)
+            now = time.monotonic()
+            if progress() != last:
+                last, moved, sent = progress(), now, now
+            if now - sent > RESEND_SECONDS:
+                self._check()
+                resend()
+                sent = now
+            if now - moved > GIVE_UP_SECONDS:
+                raise NoAnswerError(f"no answer from {who} in {GIVE_UP_SECONDS:g} s")
+
+    def wait_for_role(self, role: int, who: str) -> None:
+        """Until a program of this role answers on REACH_HELLO."""
+        hello = reach.hello_t()
+        hello.utime, hello.role = int(time.time() * 1e6), role
+        hello.instance = random.SystemRandom().getrandbits(62)
+        self.wait(
+            lambda: self._roles.get(role) == hello.instance,
+            who,
+            lambda: self._lcm.publish("REACH_HELLO", hello.encode()),
+        )
+
+    def prepare(self, kind: int, **fields) -> reach.request_t:
+        """A request under a number of its own, not yet sent."""
+        self._request_seq += 1
+        return _fill(reach.request_t(), kind, self._request_seq, fields)
+
+    def send(self, request: reach.request_t) -> None:
+        self._lcm.publish("REACH_REQUEST", request.encode())
+
+    def ask_simulator(self, kind: int, **fields) -> None:
+        """Returns when the simulator has carried it out."""
+        self._sim_seq += 1
+        request = _fill(reach.sim_request_t(), kind, self._sim_seq, fields)
+        self.wait(
+            lambda: self.truth is not None and self.truth.request_seq >= request.seq,
+            "simrobot",
+            lambda: self._lcm.publish("SIM_REQUEST", request.encode()),
+        )
+
+    def run_until(self, until: int) -> None:
+        """Lets a held simulator run; returns when the daemon has ticked at `until`; us."""
+        self._sim_seq += 1
+        kind = reach.sim_request_t.RUN_UNTIL
+        request = _fill(reach.sim_request_t(), kind, self._sim_seq, {"until": until})
+        self.wait(
+            lambda: self._time() >= until,
+            "reachd or simrobot",
+            lambda: self._lcm.publish("SIM_REQUEST", request.encode()),
+            self._time,
+        )
+
+    def _time(self) -> int:
+        return self.status.utime if self.status else -1
+
+    def take_images(self, on: bool) -> list:
+        """Begins to keep stereo pairs, or ends it and hands out what was kept."""
+        if on:
+            self._images = []
+            self._image_subscription = self._listen(
+                "STEREO_IMAGES", bot_core.images_t, lambda m: self._images.append(m)
+            )
+        elif self._image_subscription is not None:
+            self._lcm.unsubscribe(self._image_subscription)
+            self._image_subscription = None
+        return self._images
+
+
+def _fill(message, kind: int, seq: int, fields: dict):
+    message.kind, message.seq = kind, seq
+    message.utime = int(time.time() * 1e6)
+    for name, value in fields.items():
+        if not hasattr(message, name):
+            raise AttributeError(name)
+        setattr(message, name, value)
+    return message

@@ -1,0 +1,73 @@
+"""How an experiment lets robot time pass: held between its decisions, or real.
+
+With the held clock (simrobot --lockstep --hold) every request meets the robot at a definite
+instant, so that seed and configuration decide the whole run.
+"""
+
+import time
+from collections.abc import Callable
+
+from .bus import Bus, NoAnswerError
+from .messages import reach
+
+START_UTIME = 1_000_000  # where simulated time begins; us
+PERIOD_US = 20_000
+SILENCE_SECONDS = 30.0
+
+
+class HeldClock:
+    """Simulated time that passes only in advance()."""
+
+    def __init__(self, bus: Bus):
+        self._bus = bus
+        self.now = START_UTIME
+
+    def advance(self, seconds: float) -> None:
+        """Lets so much robot time pass, on the grid of control periods."""
+        self.now += round(seconds * 1e6 / PERIOD_US) * PERIOD_US
+        self._bus.run_until(self.now)
+
+    def ask_daemon(self, request: reach.request_t) -> int:
+        """Returns the request_result; the answer takes a tick or, for files, some."""
+        while True:
+            # Sent before each tick until it was looked at; the daemon ignores repeats.
+            self._bus.send(request)
+            self.advance(PERIOD_US * 1e-6)
+            status = self._bus.status
+            looked_at = status.request_seq == request.seq
+            if looked_at and status.request_result != reach.status_t.PENDING:
+                return status.request_result
+
+
+class RealClock:
+    """The wall's time."""
+
+    def __init__(self, bus: Bus, check: Callable[[], None]):
+        self._bus = bus
+        self._check = check
+        self._heard = time.monotonic()
+
+    @property
+    def now(self) -> int:
+        return self._bus.status.utime if self._bus.status else 0
+
+    def advance(self, seconds: float) -> None:
+        before = self.now
+        self._bus.handle(seconds)
+        self._check()
+        if self.now != before:
+            self._heard = time.monotonic()
+        elif time.monotonic() - self._heard > SILENCE_SECONDS:
+            raise NoAnswerError(f"no status from reachd in {SILENCE_SECONDS:g} s")
+
+    def ask_daemon(self, request: reach.request_t) -> int:
+        self._bus.wait(
+            lambda: (
+                self._bus.status is not None
+                and self._bus.status.request_seq == request.seq
+                and self._bus.status.request_result != reach.status_t.PENDING
+            ),
+            "reachd",
+            lambda: self._bus.send(request),
+        )
+        return self._bus.status.request_result

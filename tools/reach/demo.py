@@ -1,0 +1,184 @@
+"""The experiment end to end: a robot learns its arm, then a rubber tool, and reaches with both."""
+
+import argparse
+import json
+import os
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+
+from . import metrics, pictures, report, summary
+from .bus import DEFAULT_URL, Bus, NoAnswerError
+from .clock import HeldClock, RealClock
+from .experiment import Experiment, ExperimentError
+from .messages import ROOT, reach
+from .processes import ProcessDiedError, Processes
+from .progress import Progress
+from .record import read_log
+
+TOOL = 1  # the simulator's first tool, the rubber tube
+STAR_PERIOD = 4.0  # s for each target
+BABBLE_SECONDS = 3.5  # robot time of a sample, about; for the time left
+LOG_ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
+
+
+def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="run demo", description=__doc__)
+    add = parser.add_argument
+    add("--seed", type=int, default=1, help="decides the whole run; default %(default)s")
+    add("--out", type=Path, default=ROOT / "out/demo", help="folder of the results")
+    add("--samples", type=_count, default=150, help="training samples with each; default 150")
+    add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
+    add("--experts", choices=("polynomial", "linear"), default="polynomial",
+        help="what each expert of the model is; default %(default)s")  # fmt: skip
+    add("--realtime", action="store_true", help="at the wall's pace instead of as fast as it can")
+    add("--keep-images", action="store_true", help="log the cameras too (some 100 kB a pair)")
+    return parser.parse_args(arguments)
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 100000:
+        raise argparse.ArgumentTypeError("a number from 1 to 100000 is wanted")
+    return value
+
+
+def start_programs(processes: Processes, options: argparse.Namespace) -> None:
+    binaries = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
+    out, url = options.out, ["--url", DEFAULT_URL]
+    channels = ".*" if options.keep_images else LOG_ALL_BUT_IMAGES
+    clock = ["--realtime"] if options.realtime else ["--lockstep", "--hold"]
+    daemon_clock = ["--no-rt"] if options.realtime else ["--lockstep"]
+    start = processes.start
+    start(
+        "logger", ["lcm-logger", "-q", "-f", "-l", DEFAULT_URL, "-c", channels, out / "run.lcmlog"]
+    )
+    start("reachd", [binaries / "reachd", "--config", ROOT / "etc/kobian.yaml", *url, *daemon_clock,
+                     "--set", f"learner.experts={options.experts}"])  # fmt: skip
+    start("vision", [binaries / "vision", "--config", ROOT / "etc/vision-kobian.yaml", *url])
+    start("simrobot", [binaries / "simrobot", "--config", ROOT / "etc/simrobot-kobian.yaml", *url,
+                       *clock, "--seed", str(options.seed)])  # fmt: skip
+
+
+def wait_until_ready(bus: Bus) -> None:
+    hello = reach.hello_t
+    bus.wait_for_role(hello.DAEMON, "reachd")
+    bus.wait_for_role(hello.VISION, "vision")
+    bus.wait_for_role(hello.SIMULATOR, "simrobot")
+
+
+def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace) -> None:
+    """The protocol. Seeds of babbling differ between learning and testing, and between runs."""
+    samples, tests, base = options.samples, options.tests, options.seed * 10
+    targets = metrics.star_targets()
+    experiment.babble("learn_hand", samples, base + 1, learn=True)
+    experiment.babble("test_hand", tests, base + 2, learn=False)
+    pictures.take(bus, clock, options.out, "hand")
+    experiment.take_tool(TOOL)
+    experiment.babble("learn_tool", samples, base + 3, learn=True)
+    experiment.babble("test_tool", tests, base + 4, learn=False)
+    pictures.take(bus, clock, options.out, "tool")
+    experiment.star("star_tool", targets, STAR_PERIOD)
+    experiment.take_tool(0)
+    experiment.star("star_hand", targets, STAR_PERIOD)
+    # The same configurations as test_hand: has learning the tool cost the hand anything?
+    experiment.babble("retest_hand", tests, base + 2, learn=False)
+
+
+def weights(options: argparse.Namespace) -> dict[str, float]:
+    learn, test = options.samples * BABBLE_SECONDS, options.tests * BABBLE_SECONDS
+    star = len(metrics.star_targets()) * STAR_PERIOD
+    return {"learn_hand": learn, "test_hand": test, "learn_tool": learn, "test_tool": test,
+            "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> list[dict]:
+    """Performs the experiment and returns its phases; what was kept on failure is printed."""
+    phases: list[dict] = []
+    with Processes(options.out) as processes:
+        start_programs(processes, options)
+        bus = Bus(DEFAULT_URL, processes.check)
+        wait_until_ready(bus)
+        clock = RealClock(bus, processes.check) if options.realtime else HeldClock(bus)
+        experiment = Experiment(bus, clock, Progress(weights(options)))
+        phases = experiment.phases
+        try:
+            clock.advance(1.0)
+            perform(experiment, bus, clock, options)
+        except (Exception, KeyboardInterrupt) as error:
+            error.phases = phases
+            raise
+    return phases
+
+
+def prepare_folder(out: Path) -> None:
+    """Old results must not be taken for those of this run."""
+    out.mkdir(parents=True, exist_ok=True)
+    for name in ("run.json", "summary.json", "report.html", "run.lcmlog"):
+        (out / name).unlink(missing_ok=True)
+    shutil.rmtree(out / "images", ignore_errors=True)
+
+
+def write_json(path: Path, value: dict) -> None:
+    path.write_text(json.dumps(value, indent=2) + "\n")
+
+
+def describe(options: argparse.Namespace, phases: list[dict], seconds: float) -> dict:
+    return {
+        "seed": options.seed,
+        "samples": options.samples,
+        "tests": options.tests,
+        "experts": options.experts,
+        "clock": "real" if options.realtime else "lockstep",
+        "phases": phases,
+        "wall_seconds": round(seconds, 1),
+    }
+
+
+def conclude(options: argparse.Namespace) -> None:
+    """Summary, report, and the five lines that say where they are and what they say."""
+    out = options.out
+    description = json.loads((out / "run.json").read_text())
+    record = read_log(out / "run.lcmlog")
+    result = summary.summarise(record, description)
+    write_json(out / "summary.json", result)
+    report.write(out, record, description, result)
+    for line in report.five_lines(out, record, result):
+        print(line)
+
+
+def kept(options: argparse.Namespace, error: BaseException) -> str:
+    names = [phase["name"] for phase in getattr(error, "phases", [])]
+    if not (options.out / "run.lcmlog").exists():
+        return "nothing was kept"
+    done = f"complete: {', '.join(names)}" if names else "no phase was complete"
+    return f"kept {options.out / 'run.lcmlog'} and the programs' logs beside it; {done}"
+
+
+def _on_terminate(*_) -> None:
+    raise KeyboardInterrupt
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parse_arguments(arguments)
+    options.out = options.out.resolve()
+    signal.signal(signal.SIGTERM, _on_terminate)
+    start = time.monotonic()
+    try:
+        prepare_folder(options.out)
+        phases = run(options)
+        write_json(options.out / "run.json", describe(options, phases, time.monotonic() - start))
+        conclude(options)
+    except KeyboardInterrupt as error:
+        print(f"\ndemo: stopped; {kept(options, error)}", file=sys.stderr)
+        return 130
+    except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
+        print(f"\ndemo: {error}; {kept(options, error)}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

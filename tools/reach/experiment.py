@@ -1,0 +1,101 @@
+"""An experimenter: asks the daemon for behaviours, changes the tool, and notes what was when."""
+
+import time
+
+import numpy as np
+
+from . import metrics
+from .bus import Bus
+from .clock import HeldClock, RealClock
+from .messages import reach
+from .progress import Progress
+
+CHUNK_SECONDS = 0.5  # robot time between two looks at the status
+IDLE_SECONDS = 1.0  # robot time after a tool was changed
+STUCK_SECONDS = 180.0  # robot time without a sample or target
+RECENT_SAMPLES = 20  # over which the progress line's error goes
+MAX_TARGETS = 32
+
+
+class ExperimentError(Exception):
+    """The robot did not do what was asked."""
+
+
+class Experiment:
+    def __init__(self, bus: Bus, clock: HeldClock | RealClock, progress: Progress):
+        self._bus = bus
+        self._clock = clock
+        self._progress = progress
+        self._tool = 0
+        self.phases: list[dict] = []
+
+    def babble(self, name: str, count: int, seed: int, learn: bool) -> None:
+        """Collects pairs at random configurations, to learn from or to test with."""
+        kind = reach.request_t.BABBLE
+        self._behave(name, kind, count=count, seed=seed, learn=int(learn))
+
+    def star(self, name: str, targets: np.ndarray, period: float) -> None:
+        """Reaches under a resting head, from the middle of the babbled range."""
+        columns = np.zeros((3, MAX_TARGETS))
+        columns[:, : len(targets)] = targets.T
+        u, v, disparity = (column.tolist() for column in columns)
+        self._behave(
+            name, reach.request_t.REACH, learn=1, count=1, n_targets=len(targets),
+            u=u, v=v, disparity=disparity, period=period,
+        )  # fmt: skip
+
+    def take_tool(self, tool: int) -> None:
+        """Changes the tool in the hand, 0 = none; the daemon is told nothing."""
+        self._bus.ask_simulator(reach.sim_request_t.TOOL, tool=tool)
+        self._tool = tool
+        self._clock.advance(IDLE_SECONDS)
+
+    def _behave(self, name: str, kind: int, **fields) -> None:
+        request = self._bus.prepare(kind, **fields)
+        start, wall = self._clock.now, time.monotonic()
+        if self._clock.ask_daemon(request) != reach.status_t.ACCEPTED:
+            raise ExperimentError(f"{name}: reachd refused the request, see reachd.log")
+        self._follow(name)
+        status = self._bus.status
+        self.phases.append(
+            {
+                "name": name,
+                "tool": self._tool,
+                "learn": bool(request.learn),
+                "request_seq": request.seq,
+                "start": start,
+                "end": self._clock.now,
+                "skipped": status.skipped,
+                "experts": status.experts,
+            }
+        )
+        took = time.monotonic() - wall
+        self._progress.finish(name, f"done, {self._describe(status)}; took {took:.0f} s")
+
+    def _follow(self, name: str) -> None:
+        """Until the behaviour has ended."""
+        moved, last = self._clock.now, -1
+        while self._bus.status.behaviour != reach.status_t.NONE:
+            self._clock.advance(CHUNK_SECONDS)
+            status = self._bus.status
+            if status.state == reach.status_t.FAULT:
+                raise ExperimentError(f"{name}: reachd is in its fault state, see reachd.log")
+            if status.progress != last:
+                moved, last = self._clock.now, status.progress
+            if (self._clock.now - moved) * 1e-6 > STUCK_SECONDS:
+                raise ExperimentError(
+                    f"{name}: stuck at {status.progress} of {status.progress_total},"
+                    f" {status.skipped} given up: the ball is not brought into fixation"
+                )
+            share = status.progress / max(1, status.progress_total)
+            self._progress.update(name, share, self._describe(status))
+
+    def _describe(self, status: reach.status_t) -> str:
+        text = f"{status.progress} of {status.progress_total}, {status.experts} experts"
+        recent = [s for s in self._bus.samples if s.request_seq == status.request_seq]
+        if recent := recent[-RECENT_SAMPLES:]:
+            measured = metrics.to_people([s.x[:3] for s in recent])
+            predicted = metrics.to_people([s.x_predicted[:3] for s in recent])
+            yaw, pitch, disparity = metrics.rmse(predicted, measured)
+            return f"{text}, error {yaw:.2f} deg {pitch:.2f} deg {disparity:.1f} px"
+        return f"{text}, error {status.error_px:.1f} px"

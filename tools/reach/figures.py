@@ -1,0 +1,145 @@
+"""The figures of the report; one style, readable in print and on the screen."""
+
+import json
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from . import metrics, summary
+from .record import Record
+
+COLOURS = {"hand": "#1f5fa8", "tool": "#b8500f"}
+PAPER = "#777777"
+COMPONENTS = ("yaw, deg", "pitch, deg", "disparity, px")
+JOINTS = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow", "neck yaw", "neck pitch")
+WINDOW = 20  # samples of the running error
+STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "lines.linewidth": 1.3,
+    "svg.hashsalt": "reach",
+}
+matplotlib.rcParams.update(STYLE)
+
+
+def _figure(rows: int, columns: int, height: float, **options):
+    figure = Figure(figsize=(9.0, height), layout="constrained")
+    return figure, figure.subplots(rows, columns, squeeze=False, **options)
+
+
+def eyes(folder: Path) -> Figure | None:
+    """Both eyes, with the hand and with the tool, and the ball where vision found it."""
+    names = [name for name in ("hand", "tool") if (folder / f"{name}.json").exists()]
+    if not names:
+        return None
+    figure, axes = _figure(len(names), 2, 3.4 * len(names))
+    for row, name in zip(axes, names, strict=True):
+        found = json.loads((folder / f"{name}.json").read_text())
+        for axis, side in zip(row, ("left", "right"), strict=True):
+            picture = matplotlib.image.imread(folder / f"{name}-{side}.png")
+            height, width = picture.shape[:2]
+            axis.imshow(picture, extent=(-width / 2, width / 2, height / 2, -height / 2))
+            axis.set(title=f"{side} eye, {name}", xlabel="u, px", ylabel="v, px")
+            axis.grid(visible=False)
+            if found["seen"]:
+                u = found["u_right"] + (found["disparity"] if side == "left" else 0)
+                place = (u, found["v_right"])
+                axis.add_patch(Circle(place, found["radius"], fill=False, color="#ffffff", lw=1.6))
+                axis.plot(*place, "+", color="#ff2fd0", markersize=9)
+    return figure
+
+
+def learning(record: Record, run: dict, result: dict) -> Figure:
+    """Errors of predictions made before each sample was learned, and those of the test sets."""
+    figure, axes = _figure(3, 1, 6.6, sharex=True)
+    first = 0
+    for name in ("hand", "tool"):
+        rows = summary.samples_of(record, summary.phase_named(run, f"learn_{name}"))
+        error = metrics.to_people(rows["x_predicted"]) - metrics.to_people(rows["x"])
+        last = first + len(rows)
+        numbers = np.arange(first + 1, last + 1)
+        running = metrics.running_rms(error, WINDOW)
+        for component, axis in enumerate(axes[:, 0]):
+            colour = COLOURS[name]
+            axis.plot(numbers, np.abs(error[:, component]), ".", color=colour, alpha=0.35, ms=3)
+            axis.plot(numbers, running[:, component], color=colour, label=f"{name}, learning")
+            axis.plot(last, result["babbling"][name]["rmse"][component], "D", color=colour, ms=6,
+                      mec="white", label=f"{name}, test set")  # fmt: skip
+            axis.plot([first, last], [metrics.PAPER_RMSE_PCT[name][component] / 100
+                      * result["babbling"]["range"][component]] * 2, "--", color=PAPER,
+                      label="the paper's percentage" if name == "hand" else None)  # fmt: skip
+        first = last
+    for axis, component in zip(axes[:, 0], COMPONENTS, strict=True):
+        axis.set(ylabel=component, yscale="log")
+    axes[0, 0].legend(ncols=3, loc="upper right")
+    axes[2, 0].set_xlabel("training samples")
+    return figure
+
+
+def stars(record: Record, run: dict) -> Figure:
+    """The ball in the right image during both STARs."""
+    figure, axes = _figure(1, 2, 4.7, sharex=True, sharey=True)
+    targets = metrics.star_targets()
+    for axis, name in zip(axes[0], ("hand", "tool"), strict=True):
+        segments = summary.star_segments(record, summary.phase_named(run, f"star_{name}"))
+        start, end = segments[0][0], segments[-1][1]
+        marker = record.between("MARKER", start, end)
+        marker = marker[marker["seen"] == 1]
+        _, track = summary.true_track(record, start, end)
+        axis.plot(marker["u_right"], marker["v_right"], ".", color="#b5b5b5", ms=2.5,
+                  label="measured by vision")  # fmt: skip
+        axis.plot(track[:, 0], track[:, 1], color=COLOURS[name], label="true")
+        axis.plot(targets[:, 0], targets[:, 1], "k+", ms=11, mew=1.4, label="targets")
+        axis.set(title=name, xlabel="u, px", ylabel="v, px", xlim=(-65, 65), ylim=(65, -65))
+        axis.set_aspect("equal")
+        axis.legend(loc="upper left", fontsize=8)
+    return figure
+
+
+def star_series(record: Record, run: dict) -> Figure:
+    """Error to the target and joints against time, both STARs."""
+    figure, axes = _figure(2, 2, 5.4, sharex="col", sharey="row")
+    targets = metrics.star_targets()
+    for column, name in enumerate(("hand", "tool")):
+        segments = summary.star_segments(record, summary.phase_named(run, f"star_{name}"))
+        begin = segments[0][0]
+        for target, (start, end) in zip(targets, segments, strict=False):
+            times, track = summary.true_track(record, start, end)
+            error = np.linalg.norm(track - target, axis=1)
+            axes[0, column].plot((times - begin) * 1e-6, error, color=COLOURS[name])
+        rows = record.between("ROBOT_STATE", begin, segments[-1][1])
+        angles = np.degrees(rows["position"][:, : len(JOINTS)])
+        for angle, joint in zip(angles.T, JOINTS, strict=True):
+            axes[1, column].plot((rows["utime"] - begin) * 1e-6, angle - angle[0], label=joint)
+        axes[0, column].set(title=name, yscale="log")
+        axes[0, column].axhline(5, color=PAPER, ls="--", lw=1)
+        axes[1, column].set_xlabel("time, s")
+    axes[0, 0].set_ylabel("true error, px")
+    axes[1, 0].set_ylabel("joints from their start, deg")
+    axes[1, 1].legend(fontsize=7, ncols=2)
+    return figure
+
+
+def times(record: Record) -> Figure:
+    """How long ticks and stereo pairs took."""
+    figure, axes = _figure(1, 2, 2.9)
+    shown = (("a tick of the daemon", record["REACH_STATUS"]["compute_us"]),
+             ("a stereo pair in vision", record["MARKER"]["compute_us"]))  # fmt: skip
+    for axis, (title, values) in zip(axes[0], shown, strict=True):
+        values = values[values > 0]
+        if len(values):
+            edges = np.geomspace(values.min() * 0.9, values.max() * 1.1, 60)
+            axis.hist(values, edges, color="#5c5c5c")
+        axis.set(title=title, xscale="log", yscale="log", xlabel="processor time, us")
+    axes[0, 0].set_ylabel("how often")
+    return figure

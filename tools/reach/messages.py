@@ -1,0 +1,51 @@
+"""The message bindings that the build generates, and the sizes of their fields for bulk reading."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+
+try:
+    from reach_lcm import bot_core, reach
+except ImportError:
+    sys.exit(
+        "reach: the message bindings are missing; build them (./run build) and set"
+        " PYTHONPATH=tools:build/python"
+    )
+
+__all__ = ["CHANNELS", "ROOT", "bot_core", "dtype_of", "reach"]
+
+# Channel -> type of what a log holds; images are apart.
+CHANNELS = {
+    "ROBOT_STATE": "robot_state_t",
+    "ROBOT_COMMAND": "robot_command_t",
+    "MARKER": "marker_t",
+    "REACH_STATUS": "status_t",
+    "REACH_TRACE": "trace_t",
+    "REACH_SAMPLE": "sample_t",
+    "REACH_REQUEST": "request_t",
+    "SIM_REQUEST": "sim_request_t",
+    "SIM_TRUTH": "sim_truth_t",
+}
+
+_SCALARS = {"int8_t": ">i1", "int32_t": ">i4", "int64_t": ">i8", "double": ">f8"}
+_FIELD = re.compile(r"^(int8_t|int32_t|int64_t|double) (\w+)((?:\[\d+\])*)$")
+
+
+def dtype_of(type_name: str) -> np.dtype:
+    """The encoded layout of one of our messages, which LCM packs big-endian without gaps.
+
+    All of them are of fixed size, so a whole log becomes one array without a call a message.
+    """
+    fields = [("fingerprint", ">i8")]
+    text = (ROOT / "lcmtypes" / f"{type_name}.lcm").read_text()
+    body = re.sub(r"//[^\n]*", "", text).partition("{")[2]
+    for statement in body.partition("}")[0].split(";"):
+        match = _FIELD.match(" ".join(statement.split()))
+        if match:
+            shape = tuple(int(n) for n in re.findall(r"\d+", match[3]))
+            fields.append((match[2], _SCALARS[match[1]], shape))
+    return np.dtype(fields)

@@ -1,0 +1,43 @@
+"""The line that tells how far a long experiment is."""
+
+import sys
+import time
+
+LINE_SECONDS = 10.0  # between lines where the output is no terminal
+
+
+class Progress:
+    """`weights`: expected duration of each phase, in any unit; only their ratios count."""
+
+    def __init__(self, weights: dict[str, float], out=sys.stderr):
+        self._weights = weights
+        self._out = out
+        self._live = out.isatty()
+        self._start = time.monotonic()
+        self._last_line = 0.0
+        self._done: set[str] = set()
+
+    def update(self, phase: str, share: float, text: str) -> None:
+        """`share` of this phase is done, 0 .. 1."""
+        now = time.monotonic()
+        if not self._live and now - self._last_line < LINE_SECONDS:
+            return
+        self._last_line = now
+        line = f"{phase}: {text}, {self._left(phase, share)}"
+        self._out.write(f"\r{line}\033[K" if self._live else f"{line}\n")
+        self._out.flush()
+
+    def finish(self, phase: str, text: str) -> None:
+        self._done.add(phase)
+        clear = "\r\033[K" if self._live else ""
+        self._out.write(f"{clear}{phase}: {text}\n")
+        self._out.flush()
+
+    def _left(self, phase: str, share: float) -> str:
+        total = sum(self._weights.values())
+        done = sum(self._weights[name] for name in self._done)
+        done += share * self._weights.get(phase, 0.0)
+        if done < 0.01 * total:
+            return "time left unknown yet"
+        seconds = (time.monotonic() - self._start) * (total - done) / done
+        return f"{int(seconds) // 60}:{int(seconds) % 60:02d} left"
