@@ -16,13 +16,14 @@ struct Parameters {
     Eigen::VectorXd psi0;   /* variances */
     Eigen::VectorXd sigma0; /* variances */
     double alpha = 0.999;
-    double w_sigma = 2;  /* hyper-prior on Sigma_bar */
-    double w_psi = 2;    /* hyper-prior on Psi_bar; may be infinite */
-    double w_Sigma = 2;  /* each expert's */
-    double w_nu = 0;     /* each expert's */
-    double w_Psi = 2;    /* each expert's; may be infinite */
+    double w_sigma = 2; /* hyper-prior on Sigma_bar */
+    double w_psi = 2;   /* hyper-prior on Psi_bar; may be infinite */
+    double w_Sigma = 2; /* each expert's */
+    double w_nu = 0;    /* each expert's */
+    double w_Psi = 2;   /* each expert's; may be infinite */
     double w_Lambda = 0.1;
     double floor = 0.01; /* least share of w_Sigma, w_nu and w_Psi; w_Sigma never under d */
+    double skip = 0; /* an expert that takes no more than this of a sample has no M-step */
     int n_outliers = 1;
     double p0 = 0.1;
     double significance = 0.99;
@@ -48,7 +49,10 @@ public:
     /* Strongest first. */
     std::vector<Solution> predict(const Eigen::VectorXd &z) const;
     Solution predict_single(const Eigen::VectorXd &z) const;
-    int experts() const { return static_cast<int>(experts_.size()); }
+    int experts() const
+    {
+        return static_cast<int>(experts_.size());
+    }
 
 private:
     struct Expert {
@@ -76,8 +80,7 @@ private:
     Eigen::MatrixXd inverse_C(const Expert &e) const;
     double sigma_divisor(const Expert &e) const;
     Answer answer(const Expert &e, const Eigen::VectorXd &z) const;
-    double joint_density(const Expert &e, const Eigen::VectorXd &z,
-                         const Eigen::VectorXd &x) const;
+    double joint_density(const Expert &e, const Eigen::VectorXd &z, const Eigen::VectorXd &x) const;
     double outlier_input() const;
     double outlier_joint() const;
     Solution fuse(const std::vector<Answer> &answers, const std::vector<int> &members) const;

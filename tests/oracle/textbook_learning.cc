@@ -39,8 +39,8 @@ double TextbookImle::sigma_divisor(const Expert &e) const
 
 MatrixXd TextbookImle::inverse_C(const Expert &e) const
 {
-    MatrixXd C = e.S_zz - e.S_z * e.S_z.transpose() / e.S_h +
-                 e.w_Lambda * MatrixXd::Identity(p_.d, p_.d);
+    MatrixXd C =
+        e.S_zz - e.S_z * e.S_z.transpose() / e.S_h + e.w_Lambda * MatrixXd::Identity(p_.d, p_.d);
     return C.inverse();
 }
 
@@ -100,8 +100,7 @@ void TextbookImle::m_step(Expert &e) const
 
 void TextbookImle::learn(Expert &e, double h, const VectorXd &z, const VectorXd &x) const
 {
-    double decay =
-        p_.alpha >= 1 ? 1 : (std::pow(e.H + h, p_.alpha) - h) / std::pow(e.H, p_.alpha);
+    double decay = p_.alpha >= 1 ? 1 : (std::pow(e.H + h, p_.alpha) - h) / std::pow(e.H, p_.alpha);
     e.H += h;
     e.S_h = decay * e.S_h + h;
     e.S_z = decay * e.S_z + h * z;
@@ -152,8 +151,7 @@ double TextbookImle::joint_density(const Expert &e, const VectorXd &z, const Vec
     Answer a = answer(e, z);
     VectorXd variance = e.Psi * (1 + a.gamma);
     VectorXd dx = x - a.x;
-    return a.t / std::sqrt(variance.prod()) *
-           std::exp(-0.5 * dx.cwiseQuotient(variance).dot(dx));
+    return a.t / std::sqrt(variance.prod()) * std::exp(-0.5 * dx.cwiseQuotient(variance).dot(dx));
 }
 
 Result TextbookImle::update(const VectorXd &z, const VectorXd &x)
@@ -178,7 +176,7 @@ Result TextbookImle::update(const VectorXd &z, const VectorXd &x)
         total += h.back();
     }
     for (size_t j = 0; j < experts_.size(); j++)
-        if (h[j] > 0)
+        if (h[j] / total > p_.skip)
             learn(experts_[j], h[j] / total, z, x);
     update_priors();
     return result;

@@ -92,7 +92,9 @@ std::vector<std::vector<int>> TextbookImle::cluster(const std::vector<Answer> &a
     const int n = int(all.size());
     std::vector<std::vector<int>> members(1);
     std::vector<VectorXd> center(1);
-    auto weight = [&](int j) { return VectorXd(all[size_t(j)].phi * experts_[size_t(j)].Psi.cwiseInverse()); };
+    auto weight = [&](int j) {
+        return VectorXd(all[size_t(j)].phi * experts_[size_t(j)].Psi.cwiseInverse());
+    };
     VectorXd sum = VectorXd::Zero(p_.D), weights = sum;
     for (int j = 0; j < n; j++) {
         members[0].push_back(j);
@@ -111,8 +113,7 @@ std::vector<std::vector<int>> TextbookImle::cluster(const std::vector<Answer> &a
                 t += all[size_t(j)].t;
                 tt += all[size_t(j)].t * all[size_t(j)].t;
             }
-            double level =
-                members[k].size() < 2 ? 0 : chi2_cdf((t * t / tt - 1) * p_.D + 1, T);
+            double level = members[k].size() < 2 ? 0 : chi2_cdf((t * t / tt - 1) * p_.D + 1, T);
             if (level > largest) {
                 largest = level;
                 worst = k;
@@ -121,11 +122,10 @@ std::vector<std::vector<int>> TextbookImle::cluster(const std::vector<Answer> &a
         if (largest <= p_.significance)
             break;
         auto farthest = [&](const VectorXd &x) {
-            return *std::max_element(members[worst].begin(), members[worst].end(),
-                                     [&](int i, int j) {
-                                         return deviation(all[size_t(i)], i, x) <
-                                                deviation(all[size_t(j)], j, x);
-                                     });
+            return *std::max_element(
+                members[worst].begin(), members[worst].end(), [&](int i, int j) {
+                    return deviation(all[size_t(i)], i, x) < deviation(all[size_t(j)], j, x);
+                });
         };
         int first = farthest(center[worst]);
         int second = farthest(all[size_t(first)].x);

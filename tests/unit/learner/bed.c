@@ -1,0 +1,63 @@
+#include "tests/unit/learner/bed.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { MOST_ARENAS = 64 };
+
+static uint64_t state;
+static struct arena *arenas[MOST_ARENAS];
+static int n_arenas;
+
+void bed_seed(void)
+{
+    const char *text = getenv("REACH_TEST_SEED");
+
+    state = text ? strtoull(text, NULL, 10) : 1;
+    printf("REACH_TEST_SEED=%llu\n", (unsigned long long)state);
+    fflush(stdout);
+}
+
+/* splitmix64 */
+static uint64_t next(void)
+{
+    state += 0x9E3779B97F4A7C15ULL;
+    uint64_t mixed = (state ^ (state >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBULL;
+    return mixed ^ (mixed >> 31);
+}
+
+double bed_uniform(double low, double high)
+{
+    return low + (high - low) * (double)(next() >> 11) * 0x1p-53;
+}
+
+double bed_normal(void)
+{
+    double radius = sqrt(-2.0 * log(1.0 - bed_uniform(0.0, 1.0)));
+
+    return radius * cos(bed_uniform(0.0, 2.0 * 3.14159265358979323846));
+}
+
+struct learner *bed_create(const struct learner_config *config)
+{
+    char err[160] = "";
+    size_t bytes = learner_memory(config);
+    struct arena *arena = arena_create(bytes);
+
+    ck_assert_ptr_nonnull(arena);
+    ck_assert_int_lt(n_arenas, MOST_ARENAS);
+    arenas[n_arenas++] = arena;
+    struct learner *learner = learner_create(config, arena, err, sizeof err);
+    ck_assert_msg(learner != NULL, "%s", err);
+    ck_assert_uint_eq(arena_used(arena), bytes);
+    return learner;
+}
+
+void bed_clean(void)
+{
+    while (n_arenas > 0)
+        arena_destroy(arenas[--n_arenas]);
+}

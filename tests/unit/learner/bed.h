@@ -1,0 +1,29 @@
+/* What the learner's tests share: a seeded source of numbers, and a learner in its own arena. */
+#ifndef REACH_TEST_LEARNER_BED_H
+#define REACH_TEST_LEARNER_BED_H
+
+#include <stdint.h>
+
+#include "daemon/learner.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Starts the numbers from REACH_TEST_SEED, or from 1, and prints which. */
+void bed_seed(void);
+
+/* Uniform in [low, high); normal with mean 0 and deviation 1. */
+double bed_uniform(double low, double high);
+double bed_normal(void);
+
+/* A learner with room for all that its configuration allows. The test fails when it is refused. */
+struct learner *bed_create(const struct learner_config *config);
+
+/* Frees what bed_create() made since the last time. */
+void bed_clean(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
