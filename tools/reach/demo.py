@@ -53,7 +53,8 @@ def start_programs(processes: Processes, options: argparse.Namespace) -> None:
     daemon_clock = ["--no-rt"] if options.realtime else ["--lockstep"]
     start = processes.start
     start(
-        "logger", ["lcm-logger", "-q", "-f", "-l", DEFAULT_URL, "-c", channels, out / "run.lcmlog"]
+        "logger",
+        ["lcm-logger", "-q", "-f", f"--lcm-url={DEFAULT_URL}", "-c", channels, out / "run.lcmlog"],
     )
     start("reachd", [binaries / "reachd", "--config", ROOT / "etc/kobian.yaml", *url, *daemon_clock,
                      "--set", f"learner.experts={options.experts}"])  # fmt: skip
