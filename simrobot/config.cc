@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <deque>
+#include <iterator>
+#include <vector>
 
 namespace sim
 {
@@ -10,29 +13,11 @@ namespace
 {
 
 #define AT(field) offsetof(Config, field)
+#define TOOL(field) offsetof(ToolConfig, field)
 
-/* The rows of one tool; the first is used by the demonstration, the others wait for their owner. */
-#define TOOL_ROWS(number, index, kind_text, length_text)                                           \
-    {"tool" number ".kind", OPTION_CHOICE, AT(tools[index].kind), nullptr, kind_text, 0, 0,        \
-     "what the experimenter attaches as tool " number, "none|tube|stick"},                         \
-        {"tool" number ".length", OPTION_NUMBER, AT(tools[index].length), "m", length_text, 0.05,  \
-         1.0, "from the hand's frame to the centre of the ball on the tip", nullptr},              \
-        {"tool" number ".radius", OPTION_NUMBER, AT(tools[index].radius), "m", "0.006", 0.001,     \
-         0.05, "half its thickness", nullptr},                                                     \
-        {"tool" number ".mass", OPTION_NUMBER, AT(tools[index].mass), "kg", "0.043", 0.005, 2.0,   \
-         "without the ball", nullptr},                                                             \
-        {"tool" number ".direction", OPTION_LIST, AT(tools[index].direction), nullptr,             \
-         "[0, 1, 0]", -1, 1, "where it points, in the frame of robot.hand_link", nullptr},         \
-        {"tool" number ".rigidity", OPTION_NUMBER, AT(tools[index].rigidity), "N m2", "0.08",      \
-         0.005, 100, "tube: bending stiffness E I; sets droop and frequency", nullptr},            \
-        {"tool" number ".damping", OPTION_NUMBER, AT(tools[index].damping), "s", "0.02", 0, 1,     \
-         "tube: loss in bending, as the ratio of damping to stiffness", nullptr},                  \
-    {                                                                                              \
-        "tool" number ".colour", OPTION_LIST, AT(tools[index].colour), nullptr,                    \
-            "[0.16, 0.15, 0.17]", 0, 1, "red, green, blue", nullptr                                \
-    }
-
-const struct option_row table[] = {
+/* One row and a half a line; the formatter would make a column of it. */
+/* clang-format off */
+const struct option_row robot_rows[] = {
     {"robot.urdf", OPTION_TEXT, AT(urdf), nullptr, nullptr, 0, 0,
      "robot description; a relative path starts at the folder of the configuration file", nullptr},
     {"robot.arm_joints", OPTION_TEXT, AT(arm_joints), nullptr, nullptr, 0, 0,
@@ -66,9 +51,6 @@ const struct option_row table[] = {
     {"ball.mass", OPTION_NUMBER, AT(ball_mass), "kg", "0.01", 0.001, 1, "of the marker", nullptr},
     {"ball.colour", OPTION_LIST, AT(ball_colour), nullptr, "[0.10, 0.75, 0.16]", 0, 1,
      "red, green, blue", nullptr},
-    TOOL_ROWS("1", 0, "tube", "0.35"),
-    TOOL_ROWS("2", 1, "none", "0.28"),
-    TOOL_ROWS("3", 2, "none", "0.28"),
     {"eyes.width", OPTION_INT, AT(width), "px", "640", 16, 4096, "of an image", nullptr},
     {"eyes.height", OPTION_INT, AT(height), "px", "480", 16, 4096, "of an image", nullptr},
     {"eyes.focal_length", OPTION_NUMBER, AT(focal_length), "px", "1200", 10, 20000,
@@ -90,8 +72,45 @@ const struct option_row table[] = {
      "an unanswered state is sent again after this (wall clock)", nullptr},
     {"lockstep.timeout", OPTION_NUMBER, AT(lockstep_timeout), "s", "10", 0.1, 3600,
      "after this it is said who did not answer (wall clock)", nullptr},
-    OPTION_END,
 };
+
+/* For each tool, with "tool1." .. before the name and the tool's offset added. */
+const struct option_row tool_rows[] = {
+    {"kind", OPTION_CHOICE, TOOL(kind), nullptr, "none", 0, 0,
+     "what the experimenter attaches under this number", "none|tube|stick"},
+    {"length", OPTION_NUMBER, TOOL(length), "m", "0.35", 0.05, 1,
+     "from the hand's frame to the centre of the ball on the tip", nullptr},
+    {"radius", OPTION_NUMBER, TOOL(radius), "m", "0.006", 0.001, 0.05, "half its thickness", nullptr},
+    {"mass", OPTION_NUMBER, TOOL(mass), "kg", "0.043", 0.005, 2, "without the ball", nullptr},
+    {"direction", OPTION_LIST, TOOL(direction), nullptr, "[0, 1, 0]", -1, 1,
+     "where it points, in the frame of robot.hand_link", nullptr},
+    {"rigidity", OPTION_NUMBER, TOOL(rigidity), "N m2", "0.08", 0.005, 100,
+     "tube: bending stiffness E I; sets droop and frequency", nullptr},
+    {"damping", OPTION_NUMBER, TOOL(damping), "s", "0.02", 0, 1,
+     "tube: loss in bending, as the ratio of damping to stiffness", nullptr},
+    {"colour", OPTION_LIST, TOOL(colour), nullptr, "[0.16, 0.15, 0.17]", 0, 1, "red, green, blue", nullptr},
+};
+/* clang-format on */
+
+/* All rows, made once: the robot's, then those of each tool, then the table's end. */
+const struct option_row *table()
+{
+    static std::deque<std::string> names;
+    static std::vector<struct option_row> rows;
+
+    if (!rows.empty())
+        return rows.data();
+    rows.assign(std::begin(robot_rows), std::end(robot_rows));
+    for (size_t tool = 0; tool < max_tools; tool++)
+        for (struct option_row row : tool_rows) {
+            names.push_back("tool" + std::to_string(tool + 1) + "." + row.name);
+            row.name = names.back().c_str();
+            row.offset += offsetof(Config, tools) + tool * sizeof(ToolConfig);
+            rows.push_back(row);
+        }
+    rows.push_back({});
+    return rows.data();
+}
 
 bool has_three(const struct option_list &list, const char *name, std::string *error)
 {
@@ -112,8 +131,8 @@ bool check(const Config &config, std::string *error)
         if (!has_three(tool.direction, (name + ".direction").c_str(), error) ||
             !has_three(tool.colour, (name + ".colour").c_str(), error))
             return false;
-        if (std::hypot(tool.direction.value[0], tool.direction.value[1],
-                       tool.direction.value[2]) < 1e-3) {
+        if (std::hypot(tool.direction.value[0], tool.direction.value[1], tool.direction.value[2]) <
+            1e-3) {
             *error = name + ".direction: must not be zero";
             return false;
         }
@@ -144,7 +163,7 @@ bool config_load(Config *config, const char *path, const char *const *overrides,
 {
     char line[1024] = "";
 
-    if (options_load(table, config, path, overrides, n_overrides, line, sizeof line)) {
+    if (options_load(table(), config, path, overrides, n_overrides, line, sizeof line)) {
         *error = line;
         return false;
     }
@@ -157,7 +176,7 @@ bool config_load(Config *config, const char *path, const char *const *overrides,
 
 void config_print_options(FILE *out)
 {
-    options_print(table, out);
+    options_print(table(), out);
 }
 
 } // namespace sim

@@ -1,0 +1,82 @@
+/* The eyes in a thread of their own: physics goes on while images are drawn, encoded and sent. */
+#ifndef SIMROBOT_EYE_THREAD_H
+#define SIMROBOT_EYE_THREAD_H
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "common/bus.h"
+#include "simrobot/image_message.h"
+#include "simrobot/renderer.h"
+#include "simrobot/sensor.h"
+
+namespace sim
+{
+
+/* One exposure of both eyes. */
+struct EyeJob {
+    Snapshot snapshot;
+    int64_t utime;
+    int64_t release; /* CLOCK_MONOTONIC us before which it must not go out; 0 = at once */
+};
+
+class EyeThread
+{
+public:
+    /* Starts the thread. `may_drop`: when images come faster than they can be drawn, the oldest
+     * that waits is dropped and counted (real time); else submit waits (lockstep).
+     *   returns nullptr with one line in `error` when there is nothing to draw with. */
+    static std::unique_ptr<EyeThread> create(const Config &config, uint64_t seed, lcm_t *lcm,
+                                             bool may_drop, std::string *error);
+
+    /* Finishes the images that wait, then ends the thread. */
+    ~EyeThread();
+    EyeThread(const EyeThread &) = delete;
+    EyeThread &operator=(const EyeThread &) = delete;
+
+    void submit(EyeJob job);
+
+    /* Sends the pair of this exposure once more, if it is among the last few. */
+    void publish_again(int64_t utime);
+
+    int64_t dropped() const
+    {
+        return dropped_;
+    }
+
+private:
+    struct Sent {
+        int64_t utime;
+        std::vector<uint8_t> bytes;
+    };
+
+    EyeThread(const Config &config, uint64_t seed, lcm_t *lcm, bool may_drop);
+
+    void run();
+    bool start(std::string *error);
+    bool next(EyeJob *job);
+    void expose(const EyeJob &job);
+    void publish(const std::vector<uint8_t> &bytes);
+
+    const Config &config_;
+    const bool may_drop_;
+    lcm_t *lcm_;
+    Sensor sensor_;
+    std::unique_ptr<Renderer> renderer_; /* made and used in the thread */
+    std::unique_ptr<ImageMessage> encoder_;
+    StereoPixels pixels_;
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<EyeJob> jobs_;
+    std::deque<Sent> sent_;
+    bool started_ = false, failed_ = false, ending_ = false;
+    std::string start_error_;
+    int64_t dropped_ = 0;
+    std::thread thread_;
+};
+
+} // namespace sim
+#endif

@@ -1,0 +1,143 @@
+/* simrobot: start-up order, signals, shut-down. */
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "common/log.h"
+#include "simrobot/command_line.h"
+#include "simrobot/eye_tasks.h"
+#include "simrobot/eye_thread.h"
+#include "simrobot/lockstep.h"
+#include "simrobot/realtime.h"
+#include "version.h"
+
+namespace
+{
+
+volatile sig_atomic_t stop_wanted;
+
+void on_signal(int)
+{
+    stop_wanted = 1;
+}
+
+bool stopping()
+{
+    return stop_wanted != 0;
+}
+
+void catch_signals()
+{
+    struct sigaction action = {};
+
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+/* Raw pairs come as 29 fragments at once; a receiver whose buffer is too small loses them all. */
+void warn_of_small_buffers(const sim::Config &config)
+{
+    long long most = 0, pair = 2ll * config.width * config.height * 3;
+    std::ifstream file("/proc/sys/net/core/rmem_max");
+
+    if (config.image_format == static_cast<int>(sim::ImageFormat::rgb) && file >> most &&
+        most < 2 * pair)
+        log_warning("raw images of %lld bytes a pair will be lost: net.core.rmem_max is %lld; "
+                    "sysctl -w net.core.rmem_max=%lld, or images.format: jpeg",
+                    pair, most, 2 * pair);
+}
+
+std::vector<std::string> joint_names(const sim::Rig &rig)
+{
+    std::vector<std::string> names;
+    for (int segment : rig.joints)
+        names.push_back(rig.description.segments[static_cast<size_t>(segment)].name);
+    return names;
+}
+
+/* On the bus until the end. */
+bool run(const sim::CommandLine &line, const sim::Config &config, sim::Simulation &simulation,
+         std::string *error)
+{
+    auto seed = static_cast<uint64_t>(line.seed);
+    std::unique_ptr<sim::SimBus> bus = sim::SimBus::open(line.url.c_str(), line.truth_url.c_str(),
+                                                         joint_names(simulation.rig()), error);
+    std::unique_ptr<sim::EyeThread> eyes;
+    sim::ClockControl control;
+
+    if (!bus)
+        return false;
+    if (line.eyes && simulation.rig().has_eyes) {
+        warn_of_small_buffers(config);
+        eyes = sim::EyeThread::create(config, seed, bus->lcm(), !line.lockstep, error);
+        if (!eyes)
+            return false;
+    }
+    control.lockstep = line.lockstep;
+    control.until = line.hold ? 0 : INT64_MAX;
+    sim::Session session(config, simulation, *bus, eyes.get(), control, line.send_truth);
+    bool good = line.lockstep ? sim::lockstep_run(config, session, *bus, stopping, error)
+                              : sim::realtime_run(config, session, *bus, stopping, error);
+    log_info("ended after %.3f s of the world's time, %lld messages refused",
+             static_cast<double>(simulation.steps()) * sim::physics_step,
+             static_cast<long long>(bus->refused()));
+    return good;
+}
+
+bool start(const sim::CommandLine &line, std::string *error)
+{
+    sim::Config config;
+    sim::Rig rig;
+    auto seed = static_cast<uint64_t>(line.seed);
+
+    if (!sim::config_load(&config, line.config.c_str(), line.overrides.data(),
+                          static_cast<int>(line.overrides.size()), error) ||
+        !sim::rig_load(config, &rig, error))
+        return false;
+    sim::Simulation simulation(config, rig, seed);
+    if (!simulation.set_tool(static_cast<int>(line.tool))) {
+        *error = line.config + ": there is no tool " + std::to_string(line.tool);
+        return false;
+    }
+    if (!rig.has_eyes && (line.bench_eyes || !line.snapshot.empty())) {
+        *error = line.config + ": this robot has no eyes";
+        return false;
+    }
+    if (line.bench_eyes)
+        return sim::eye_task_bench(config, simulation, seed, line.bench_eyes, error);
+    if (!line.snapshot.empty())
+        return sim::eye_task_snapshot(config, simulation, seed, line.snapshot, error);
+    return run(line, config, simulation, error);
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    sim::CommandLine line;
+    std::string error;
+
+    if (!sim::command_line_parse(argc, argv, &line))
+        return 2;
+    log_open("simrobot", line.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
+    catch_signals();
+    switch (line.task) {
+    case sim::Task::help:
+        fputs(sim::command_line_help(), stdout);
+        return 0;
+    case sim::Task::help_options:
+        sim::config_print_options(stdout);
+        return 0;
+    case sim::Task::version:
+        puts("simrobot " REACH_VERSION);
+        return 0;
+    case sim::Task::run:
+        break;
+    }
+    if (start(line, &error))
+        return 0;
+    log_error("%s", error.c_str());
+    return 1;
+}

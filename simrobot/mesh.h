@@ -1,0 +1,44 @@
+/* Triangles of the scene in the base's frame, lit corner by corner on the CPU: so few corners that
+ * one draw call for all is much cheaper than one a shape. */
+#ifndef SIMROBOT_MESH_H
+#define SIMROBOT_MESH_H
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "simrobot/description.h"
+#include "simrobot/light.h"
+
+namespace sim
+{
+
+/* A corner as the shaders read it. */
+struct Vertex {
+    float position[3];
+    uint8_t colour[4];
+    float texture[2]; /* where in the texture; plain shapes leave it 0 */
+};
+
+/* A corner before the light falls on it. */
+struct Corner {
+    Eigen::Vector3f position, normal, colour;
+    Eigen::Vector2f texture;
+};
+
+using Corners = std::vector<Corner>; /* three make a triangle */
+
+/* Appends a shape's triangles. */
+void mesh_append(const Shape &shape, Corners *corners);
+
+/* Appends a flat rectangle of `cells` x `cells` pieces: `corner` and the edges from it; the normal
+ * is edge_u x edge_v. The texture repeats `repeat` times over it. */
+void mesh_append_rectangle(const Eigen::Vector3f &corner, const Eigen::Vector3f &edge_u,
+                           const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour, int cells,
+                           float repeat, Corners *corners);
+
+/* Appends the corners under this light. */
+void mesh_light(const Corners &corners, const LightState &light, std::vector<Vertex> *vertices);
+
+} // namespace sim
+#endif

@@ -1,0 +1,33 @@
+/* Random numbers that are the same on every machine: xoshiro256** seeded by splitmix64. */
+#ifndef SIMROBOT_RANDOM_H
+#define SIMROBOT_RANDOM_H
+
+#include <cstdint>
+
+namespace sim
+{
+
+class Random
+{
+public:
+    /* Streams of one seed do not overlap in practice: one a purpose (encoders, light, ...). */
+    Random(uint64_t seed, uint64_t stream);
+
+    uint64_t bits();
+
+    /* Uniform in [0, 1). */
+    double uniform();
+
+    /* Uniform in [low, high). */
+    double uniform(double low, double high);
+
+    /* Mean 0, standard deviation 1, as the sum of twelve uniform numbers: no libm, so the same
+     * bits everywhere; never beyond 6. */
+    double gaussian();
+
+private:
+    uint64_t state_[4];
+};
+
+} // namespace sim
+#endif

@@ -1,0 +1,216 @@
+#include "simrobot/renderer.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "simrobot/gl_program.h"
+#include "simrobot/scene.h"
+#include "simrobot/shaders.h"
+
+namespace sim
+{
+namespace
+{
+
+/* What is nearer or farther than this is not drawn, m. */
+const float near_plane = 0.05f, far_plane = 8.0f;
+
+const int texture_size = 256;
+
+/* From the eye's frame (x ahead, y left, z up) to clip space. Rows are drawn upside down, so that
+ * reading back gives the top row first. */
+Eigen::Matrix4f projection(float focal_length, int width, int height)
+{
+    const float range = far_plane - near_plane;
+    Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
+
+    m(0, 1) = -2 * focal_length / static_cast<float>(width);
+    m(1, 2) = -2 * focal_length / static_cast<float>(height);
+    m(2, 0) = (far_plane + near_plane) / range;
+    m(2, 3) = -2 * far_plane * near_plane / range;
+    m(3, 0) = 1;
+    return m;
+}
+
+void set_vector(GLuint program, const char *name, const Eigen::Vector3f &v)
+{
+    glUniform3f(glGetUniformLocation(program, name), v.x(), v.y(), v.z());
+}
+
+const void *at_offset(size_t bytes)
+{
+    return reinterpret_cast<const void *>(bytes);
+}
+
+} // namespace
+
+Renderer::Renderer(const Config &config)
+    : width_(config.width), height_(config.height),
+      focal_length_(static_cast<float>(config.focal_length)),
+      ball_colour_(Eigen::Vector3d(config.ball_colour.value).cast<float>())
+{
+}
+
+std::unique_ptr<Renderer> Renderer::create(const Config &config, std::string *error)
+{
+    std::unique_ptr<Renderer> renderer(new Renderer(config));
+    return renderer->start(error) ? std::move(renderer) : nullptr;
+}
+
+bool Renderer::start(std::string *error)
+{
+    context_ = EglContext::create(error);
+    if (!context_ || !make_programs(error) || !make_target(error))
+        return false;
+    make_scene();
+    return true;
+}
+
+Renderer::~Renderer()
+{
+    /* Everything of OpenGL goes with its context. */
+}
+
+bool Renderer::make_programs(std::string *error)
+{
+    plain_ = gl_program(scene_vertex_shader, plain_fragment_shader, error);
+    textured_ = gl_program(scene_vertex_shader, textured_fragment_shader, error);
+    ball_ = gl_program(ball_vertex_shader, ball_fragment_shader, error);
+    return plain_ && textured_ && ball_;
+}
+
+bool Renderer::make_target(std::string *error)
+{
+    glGenFramebuffers(1, &target_);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_);
+    glGenRenderbuffers(1, &colour_buffer_);
+    glBindRenderbuffer(GL_RENDERBUFFER, colour_buffer_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 2 * width_, height_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              colour_buffer_);
+    glGenRenderbuffers(1, &depth_buffer_);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_buffer_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, 2 * width_, height_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_buffer_);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
+        return true;
+    *error = "eyes: the graphics driver cannot draw " + std::to_string(2 * width_) + " x " +
+             std::to_string(height_) + " pixels";
+    return false;
+}
+
+void Renderer::make_scene()
+{
+    table_ = scene_table();
+    walls_ = scene_walls();
+    things_ = scene_things();
+    batches_ = {{gl_texture(scene_wood(texture_size), texture_size), 0, 0},
+                {gl_texture(scene_wallpaper(texture_size), texture_size), 0, 0},
+                {0, 0, 0}};
+
+    glGenVertexArrays(1, &empty_array_);
+    glGenVertexArrays(1, &vertex_array_);
+    glBindVertexArray(vertex_array_);
+    glGenBuffers(1, &vertex_buffer_);
+    glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          at_offset(offsetof(Vertex, position)));
+    glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Vertex),
+                          at_offset(offsetof(Vertex, colour)));
+    glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          at_offset(offsetof(Vertex, texture)));
+    for (GLuint i = 0; i < 3; i++)
+        glEnableVertexAttribArray(i);
+}
+
+void Renderer::fill_vertices(const Snapshot &snapshot)
+{
+    Corners moving;
+
+    for (const Shape &shape : snapshot.shapes)
+        mesh_append(shape, &moving);
+    vertices_.clear();
+    size_t batch = 0;
+    for (const Corners *corners : {&table_, &walls_}) {
+        batches_[batch].first = static_cast<GLsizei>(vertices_.size());
+        mesh_light(*corners, snapshot.light, &vertices_);
+        batches_[batch++].count = static_cast<GLsizei>(corners->size());
+    }
+    batches_[batch].first = static_cast<GLsizei>(vertices_.size());
+    mesh_light(things_, snapshot.light, &vertices_);
+    mesh_light(moving, snapshot.light, &vertices_);
+    batches_[batch].count = static_cast<GLsizei>(things_.size() + moving.size());
+    glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(Vertex)),
+                 vertices_.data(), GL_STREAM_DRAW);
+}
+
+void Renderer::draw(const Snapshot &snapshot, StereoPixels *pixels)
+{
+    fill_vertices(snapshot);
+    glViewport(0, 0, 2 * width_, height_);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glViewport(0, 0, width_, height_);
+    draw_eye(snapshot.left_eye, snapshot);
+    glViewport(width_, 0, width_, height_);
+    draw_eye(snapshot.right_eye, snapshot);
+    pixels->resize(static_cast<size_t>(2 * width_) * static_cast<size_t>(height_) * 4);
+    glReadPixels(0, 0, 2 * width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels->data());
+}
+
+void Renderer::draw_eye(const Eigen::Isometry3d &eye, const Snapshot &snapshot)
+{
+    draw_scene(projection(focal_length_, width_, height_) * eye.inverse().cast<float>().matrix());
+    draw_ball(eye, snapshot);
+}
+
+void Renderer::draw_scene(const Eigen::Matrix4f &view)
+{
+    glBindVertexArray(vertex_array_);
+    /* Nearest first: what is hidden then costs a depth test and no colour. */
+    for (auto batch = batches_.rbegin(); batch != batches_.rend(); ++batch) {
+        GLuint program = batch->texture ? textured_ : plain_;
+        glUseProgram(program);
+        glUniformMatrix4fv(glGetUniformLocation(program, "view"), 1, GL_FALSE, view.data());
+        glBindTexture(GL_TEXTURE_2D, batch->texture);
+        glDrawArrays(GL_TRIANGLES, batch->first, batch->count);
+    }
+}
+
+void Renderer::draw_ball(const Eigen::Isometry3d &eye, const Snapshot &snapshot)
+{
+    Eigen::Vector3f centre = (eye.inverse() * snapshot.ball).cast<float>();
+    Eigen::Matrix3f to_eye = eye.linear().transpose().cast<float>();
+    auto radius = static_cast<float>(snapshot.ball_radius);
+    const float range = far_plane - near_plane;
+
+    if (centre.x() < near_plane + 2 * radius)
+        return;
+    /* Off the axis a sphere looks longer than wide; a third more than its radius is enough. */
+    float u = -centre.y() / centre.x(), v = -centre.z() / centre.x();
+    float half = 1.35f * radius / centre.x() + 2 / focal_length_;
+    glUseProgram(ball_);
+    glUniform4f(glGetUniformLocation(ball_, "square"), u - half, v - half, u + half, v + half);
+    glUniform2f(glGetUniformLocation(ball_, "scale"),
+                2 * focal_length_ / static_cast<float>(width_),
+                2 * focal_length_ / static_cast<float>(height_));
+    set_vector(ball_, "centre", centre);
+    set_vector(ball_, "paint", ball_colour_);
+    set_vector(ball_, "lamp_direction", to_eye * snapshot.light.direction);
+    set_vector(ball_, "lamp", snapshot.light.colour);
+    set_vector(ball_, "ambient", snapshot.light.ambient);
+    set_vector(ball_, "up", to_eye * Eigen::Vector3f::UnitZ());
+    glUniform1f(glGetUniformLocation(ball_, "radius"), radius);
+    glUniform1f(glGetUniformLocation(ball_, "pixel_angle"), 1 / focal_length_);
+    glUniform2f(glGetUniformLocation(ball_, "depth"), far_plane / range,
+                -far_plane * near_plane / range);
+    glBindVertexArray(empty_array_);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_BLEND);
+}
+
+} // namespace sim

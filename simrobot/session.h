@@ -1,0 +1,92 @@
+/* One run: joins the world, the eyes and the bus period by period. The clocks (lockstep.h,
+ * realtime.h) decide when; this decides what. */
+#ifndef SIMROBOT_SESSION_H
+#define SIMROBOT_SESSION_H
+
+#include "simrobot/exposures.h"
+#include "simrobot/sim_bus.h"
+#include "simrobot/simulation.h"
+
+namespace sim
+{
+
+class EyeThread;
+
+/* The control period in physics steps. */
+inline constexpr int period_steps = 20;
+inline constexpr int64_t step_us = 1000;
+
+/* What the experimenter has asked of the clock. */
+struct ClockControl {
+    bool lockstep = false;
+    bool paused = false;
+    bool quit = false;
+    double speed = 1;          /* times real time */
+    int64_t until = INT64_MAX; /* last utime at which a state may be published */
+};
+
+class Session
+{
+public:
+    /* `eyes` may be nullptr; `send_truth` false: nothing ever goes out on SIM_TRUTH. */
+    Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
+            const ClockControl &control, bool send_truth);
+
+    /* utime of the world's present instant. */
+    int64_t now() const
+    {
+        return start_ + simulation_.steps() * step_us;
+    }
+
+    /* Sets the utime of the present instant: at the start, and when real time was lost. */
+    void set_now(int64_t utime)
+    {
+        start_ = utime - simulation_.steps() * step_us;
+    }
+
+    /* Carries out all requests that wait; a clock that stands acknowledges at once. */
+    void handle_requests(bool standing);
+
+    const ClockControl &control() const
+    {
+        return control_;
+    }
+
+    /* Reads the encoders and publishes the state of this instant, with its truth. */
+    void publish_state();
+
+    /* Publishes the newest state again, and the image pair that its tick waits for. */
+    void resend_state();
+    int64_t state_seq() const
+    {
+        return state_.seq;
+    }
+
+    void command(const std::vector<double> &velocities)
+    {
+        simulation_.command(velocities);
+    }
+
+    /* One physics step; exposes the cameras when it is time. `release`: CLOCK_MONOTONIC us at
+     * which an image exposed now may go out, 0 = as soon as it is ready. */
+    void step(int64_t release);
+
+private:
+    void carry_out(const reach_sim_request_t &request);
+    std::string refuse_reason(const reach_sim_request_t &request) const;
+    void expose(int64_t release);
+    void publish_truth(bool exposure, int64_t seq);
+
+    Simulation &simulation_;
+    SimBus &bus_;
+    EyeThread *eyes_;
+    ClockControl control_;
+    bool send_truth_;
+    Exposures exposures_;
+    int64_t start_ = 0;
+    int64_t request_seq_ = 0;
+    reach_robot_state_t state_ = {};
+};
+
+} // namespace sim
+#endif

@@ -1,0 +1,46 @@
+/* ODE's world: gravity, the fixed step, and the translations between ODE's and Eigen's poses. */
+#ifndef SIMROBOT_WORLD_H
+#define SIMROBOT_WORLD_H
+
+#include <ode/ode.h>
+
+#include <Eigen/Geometry>
+
+namespace sim
+{
+
+/* One physics step. Spring-dampers and camera exposures are laid out on this grid. */
+inline constexpr double physics_step = 0.001; /* s */
+
+class World
+{
+public:
+    World();
+    ~World();
+    World(const World &) = delete;
+    World &operator=(const World &) = delete;
+
+    dWorldID id() const
+    {
+        return id_;
+    }
+
+    /* Advances by physics_step. */
+    void step();
+
+private:
+    dWorldID id_;
+};
+
+/* Pose of a body's frame, whose origin is its centre of mass. */
+Eigen::Isometry3d body_pose(dBodyID body);
+void body_set_pose(dBodyID body, const Eigen::Isometry3d &pose);
+
+/* A body's frame is at its centre of mass; `inertia` about it, in the body's axes. */
+void body_set_mass(dBodyID body, double mass, const Eigen::Matrix3d &inertia);
+
+/* Gives `body` the motion of a point that is rigidly joined to `carrier`. */
+void body_move_with(dBodyID body, dBodyID carrier);
+
+} // namespace sim
+#endif
