@@ -5,7 +5,9 @@
 
 static bool may_start(const struct tick *tick)
 {
-    return tick->state == SUPERVISOR_IDLE && !tick->behaviour.ops;
+    /* The tick after work is done still finds the state in which it was done. */
+    return (tick->state == SUPERVISOR_IDLE || tick->state == SUPERVISOR_ACTIVE) &&
+           !tick->behaviour.ops;
 }
 
 static int8_t start_behaviour(struct tick *tick, const reach_request_t *request,

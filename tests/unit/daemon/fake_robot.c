@@ -1,0 +1,81 @@
+#include "fake_robot.h"
+
+#include "visual.h"
+
+#include <math.h>
+#include <string.h>
+
+void fake_robot_init(struct fake_robot *robot, const struct config *config)
+{
+    memset(robot, 0, sizeof *robot);
+    robot->config = config;
+    robot->now = 1000000;
+    robot->half_width = 320;
+    robot->half_height = 240;
+    for (int i = 0; i < config_arm_joints(config); i++)
+        robot->q[i] = 0.5 * (config->babble_min.value[i] + config->babble_max.value[i]);
+}
+
+void fake_robot_task(const struct fake_robot *robot, const double *q_arm, double *x)
+{
+    double lift = q_arm[0] + 1.1, side = q_arm[1] + 0.3, roll = q_arm[2], bend = q_arm[3] + 1.1;
+
+    x[0] = -0.1 + 0.8 * side + 0.3 * sin(roll) + 0.1 * bend * side + robot->tool * (1 + 0.3 * bend);
+    x[1] = 0.1 - 0.3 * sin(lift) - 0.25 * bend + 0.1 * roll * roll + 0.05 * robot->tool * cos(roll);
+    x[2] = 20 + 80 * lift - 60 * sin(bend) + 25 * roll - 40 * robot->tool * cos(side);
+}
+
+void fake_robot_image(const struct fake_robot *robot, double *image)
+{
+    const double *q_head = robot->q + config_arm_joints(robot->config);
+    double x[VISUAL_DIMENSIONS];
+
+    fake_robot_task(robot, robot->q, x);
+    /* A pinhole eye in the neck's centre: right of the axis is positive u, below positive v. */
+    image[0] = -robot->config->pixels_per_radian * tan(x[0] - q_head[0]);
+    image[1] = robot->config->pixels_per_radian * tan(x[1] - q_head[1]);
+    image[2] = x[2];
+}
+
+static double gaussian(struct random_state *random)
+{
+    double sum = -6;
+
+    for (int i = 0; i < 12; i++)
+        sum += random_uniform(random, 0, 1);
+    return sum;
+}
+
+static void expose(struct fake_robot *robot)
+{
+    double image[VISUAL_DIMENSIONS];
+
+    fake_robot_image(robot, image);
+    robot->marker = (reach_marker_t){.utime = robot->now, .seq = ++robot->marker_seq};
+    robot->has_marker = true;
+    if (robot->blind || fabs(image[0]) > robot->half_width || fabs(image[1]) > robot->half_height) {
+        robot->marker.reason = 1;
+        return;
+    }
+    robot->marker.seen = 1;
+    robot->marker.u_right = image[0] + robot->noise * gaussian(&robot->random);
+    robot->marker.v_right = image[1] + robot->noise * gaussian(&robot->random);
+    robot->marker.disparity = image[2] + robot->noise * gaussian(&robot->random);
+}
+
+reach_robot_state_t fake_robot_state(struct fake_robot *robot)
+{
+    reach_robot_state_t state = {
+        .utime = robot->now, .seq = ++robot->seq, .n_joints = config_joints(robot->config)};
+
+    memcpy(state.position, robot->q, sizeof state.position);
+    return state;
+}
+
+void fake_robot_step(struct fake_robot *robot, const reach_robot_command_t *command)
+{
+    expose(robot);
+    for (int i = 0; i < config_joints(robot->config); i++)
+        robot->q[i] += command->velocity[i] * robot->config->period;
+    robot->now += (int64_t)(robot->config->period * 1e6);
+}

@@ -1,0 +1,16 @@
+/* What the daemon's tests share: the shipped configuration, an arena, random numbers. */
+#ifndef REACH_TEST_FIXTURE_H
+#define REACH_TEST_FIXTURE_H
+
+#include "config.h"
+#include "random.h"
+
+#include <stdint.h>
+
+/* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
+struct config fixture_config(const char *const *overrides, int n_overrides);
+
+/* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
+struct random_state fixture_random(const char *test);
+
+#endif

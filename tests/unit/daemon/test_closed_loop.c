@@ -1,0 +1,276 @@
+/* The whole control step on a robot without bodies: each loop closed, learning from nothing, with
+ * signs that must be right or nothing converges. */
+#include "fake_robot.h"
+#include "fixture.h"
+#include "learner.h"
+#include "tests/unit/suite.h"
+#include "tick.h"
+
+#include <math.h>
+#include <string.h>
+
+struct world {
+    struct config config;
+    struct arena *arena;
+    struct tick *tick;
+    struct fake_robot robot;
+    struct tick_inputs inputs;
+    struct tick_outputs outputs;
+    int64_t request_seq;
+    int samples;
+    double worst_sample; /* error of the newest samples' predictions, degrees */
+};
+
+static struct world world;
+
+static void begin(const char *const *overrides, int n_overrides)
+{
+    char error[256];
+
+    memset(&world, 0, sizeof world);
+    world.config = fixture_config(overrides, n_overrides);
+    world.arena = arena_create(tick_memory(&world.config));
+    world.tick = tick_create(&world.config, world.arena, error, sizeof error);
+    ck_assert_msg(world.tick != NULL, "%s", error);
+    fake_robot_init(&world.robot, &world.config);
+    world.robot.noise = 0.3;
+}
+
+static void end(void)
+{
+    arena_destroy(world.arena);
+}
+
+static void check_limits(void)
+{
+    for (int i = 0; i < config_joints(&world.config); i++) {
+        struct joint_limits limits = config_joint_limits(&world.config, i);
+        ck_assert(world.robot.q[i] >= limits.min - 1e-9 && world.robot.q[i] <= limits.max + 1e-9);
+        ck_assert(fabs(world.outputs.command.velocity[i]) <= limits.velocity + 1e-9);
+    }
+}
+
+static void step(void)
+{
+    struct tick_inputs *inputs = &world.inputs;
+
+    inputs->has_state = true;
+    inputs->state = fake_robot_state(&world.robot);
+    inputs->n_markers = world.robot.has_marker;
+    inputs->marker[0] = world.robot.marker;
+    tick_decide(world.tick, inputs, world.robot.now, &world.outputs);
+    while (tick_learn(world.tick))
+        ;
+    tick_report(world.tick, world.robot.now, &world.outputs);
+    inputs->n_requests = 0;
+    world.samples += world.outputs.has_sample;
+    check_limits();
+    fake_robot_step(&world.robot, &world.outputs.command);
+}
+
+static void ask(reach_request_t request)
+{
+    request.seq = ++world.request_seq;
+    world.inputs.request[world.inputs.n_requests++] = request;
+    step();
+    ck_assert_int_eq(world.outputs.status.request_seq, request.seq);
+    ck_assert_int_eq(world.outputs.status.request_result, REACH_STATUS_T_ACCEPTED);
+}
+
+static void run_until_done(int seconds)
+{
+    for (int i = 0; i < seconds * 50; i++) {
+        step();
+        if (world.outputs.status.behaviour == REACH_STATUS_T_NONE)
+            return;
+    }
+    ck_abort_msg("not done after %d s: phase %d, %d of %d, %d skipped", seconds,
+                 world.outputs.status.phase, world.outputs.status.progress,
+                 world.outputs.status.progress_total, world.outputs.status.skipped);
+}
+
+static void babble(int count, bool learn)
+{
+    step(); /* the supervisor must first know a state */
+    ask((reach_request_t){
+        .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = 7, .learn = learn});
+    run_until_done(10 * count);
+    ck_assert_int_eq(world.outputs.status.progress, count);
+}
+
+static double image_error(const double *target)
+{
+    double image[3], sum = 0;
+
+    fake_robot_image(&world.robot, image);
+    for (int i = 0; i < 3; i++)
+        sum += (target[i] - image[i]) * (target[i] - image[i]);
+    return sqrt(sum);
+}
+
+START_TEST(the_head_fixates)
+{
+    double image[3];
+
+    begin(NULL, 0);
+    world.robot.q[4] = -0.2;
+    step();
+    ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 1, .seed = 1});
+    run_until_done(10);
+    fake_robot_image(&world.robot, image);
+    ck_assert(fabs(image[0]) < 4 && fabs(image[1]) < 4);
+    end();
+}
+END_TEST
+
+START_TEST(the_head_searches_what_is_out_of_view)
+{
+    begin(NULL, 0);
+    world.robot.half_width = 100;
+    world.robot.half_height = 80;
+    world.robot.q[4] = 0.6; /* looks far to the left of it */
+    babble(1, true);
+    ck_assert_int_eq(world.outputs.status.skipped, 0);
+    end();
+}
+END_TEST
+
+/* Targets of a STAR, reached with the learned Jacobian; learning from nothing before. */
+static void star(double bound)
+{
+    reach_request_t request = {
+        .kind = REACH_REQUEST_T_REACH, .n_targets = 9, .period = 4, .count = 1};
+    const double u[] = {0, 50, -50, 0, 0, 50, -50, 50, -50};
+    const double v[] = {0, 0, 0, 50, -50, 50, -50, -50, 50};
+    int reached = 0;
+
+    memcpy(request.u, u, sizeof u);
+    memcpy(request.v, v, sizeof v);
+    request.disparity[0] = 20;
+    for (int i = 1; i < 9; i++)
+        request.disparity[i] = 20;
+    ask(request);
+    for (int i = 0; i < 9 * 250 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
+        int done = world.outputs.status.progress;
+        double error = done < 9 ? image_error((double[]){u[done], v[done], 20}) : 0;
+        step();
+        if (world.outputs.status.progress > done) {
+            ck_assert_msg(error < bound, "target %d: %g px", done, error);
+            reached++;
+        }
+    }
+    ck_assert_int_eq(reached, 9);
+}
+
+START_TEST(it_learns_two_tools_and_reaches_with_both)
+{
+    begin(NULL, 0);
+    babble(120, true);
+    world.robot.tool = 0.35;
+    babble(120, true);
+    star(3);
+    ck_assert_int_eq(world.outputs.status.solutions, 2);
+    world.robot.tool = 0;
+    star(3);
+    ck_assert_int_eq(world.outputs.status.gated, 0);
+    end();
+}
+END_TEST
+
+START_TEST(linear_experts_do_too)
+{
+    const char *overrides[] = {"learner.experts=linear"};
+
+    begin(overrides, 1);
+    babble(120, true);
+    world.robot.tool = 0.35;
+    babble(120, true);
+    star(5);
+    world.robot.tool = 0;
+    star(5);
+    end();
+}
+END_TEST
+
+START_TEST(a_frozen_model_does_not_change)
+{
+    begin(NULL, 0);
+    babble(30, true);
+    ck_assert_int_eq(world.outputs.status.samples, 30);
+    babble(5, false);
+    ck_assert_int_eq(world.outputs.status.samples, 30);
+    ck_assert_int_eq(world.samples, 35);
+    end();
+}
+END_TEST
+
+START_TEST(the_arm_follows_the_head)
+{
+    reach_request_t request = {
+        .kind = REACH_REQUEST_T_COORDINATE, .n_targets = 4, .period = 3, .count = 1, .learn = 1};
+    const double u[] = {50, -50, -50, 50}, v[] = {0, 50, -50, 0};
+    double worst = 0, head[2];
+
+    begin(NULL, 0);
+    babble(120, true);
+    memcpy(request.u, u, sizeof u);
+    memcpy(request.v, v, sizeof v);
+    for (int i = 0; i < 4; i++)
+        request.disparity[i] = 20;
+    ask(request);
+    for (int i = 0; i < 3000 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
+        double error[2];
+        step();
+        fake_robot_image(&world.robot, error);
+        if (world.outputs.status.phase == REACH_STATUS_T_TRACK)
+            worst = fmax(worst, hypot(error[0], error[1]));
+        memcpy(head, world.robot.q + 4, sizeof head);
+    }
+    ck_assert_int_eq(world.outputs.status.progress, 4);
+    ck_assert_msg(worst < 12, "%g px", worst);
+    ck_assert(hypot(head[0], head[1]) > 0);
+    end();
+}
+END_TEST
+
+START_TEST(an_arm_whose_marker_is_hidden_holds)
+{
+    reach_request_t request = {.kind = REACH_REQUEST_T_REACH,
+                               .n_targets = 1,
+                               .period = 100,
+                               .u = {40},
+                               .disparity = {20},
+                               .count = 1};
+
+    begin(NULL, 0);
+    babble(60, true);
+    ask(request);
+    while (world.outputs.status.phase != REACH_STATUS_T_TRACK)
+        step();
+    world.robot.blind = true;
+    for (int i = 0; i < 50; i++)
+        step();
+    for (int i = 0; i < 4; i++)
+        ck_assert_double_eq(world.outputs.command.velocity[i], 0);
+    world.robot.blind = false;
+    for (int i = 0; i < 200; i++)
+        step();
+    ck_assert(image_error((double[]){40, 0, 20}) < 3);
+    end();
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {
+        the_head_fixates,
+        the_head_searches_what_is_out_of_view,
+        it_learns_two_tools_and_reaches_with_both,
+        linear_experts_do_too,
+        a_frozen_model_does_not_change,
+        the_arm_follows_the_head,
+        an_arm_whose_marker_is_hidden_holds,
+    };
+
+    return SUITE_RUN("closed loop", tests);
+}

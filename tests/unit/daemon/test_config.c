@@ -1,0 +1,72 @@
+/* The shipped configuration, and what is refused although each option alone is in range. */
+#include "fixture.h"
+#include "tests/unit/suite.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void refuses(const char *override, const char *reason)
+{
+    const char *overrides[] = {override};
+    struct config config;
+    char path[512], error[512] = "";
+
+    snprintf(path, sizeof path, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
+    ck_assert_int_eq(config_load(&config, path, overrides, 1, error, sizeof error), -1);
+    ck_assert_msg(strstr(error, reason) != NULL, "'%s' does not say '%s'", error, reason);
+}
+
+START_TEST(the_shipped_configuration_is_the_paper_s_robot)
+{
+    struct config config = fixture_config(NULL, 0);
+    struct joint_limits elbow = config_joint_limits(&config, 3);
+    struct joint_limits pitch = config_joint_limits(&config, 5);
+
+    ck_assert_int_eq(config_arm_joints(&config), 4);
+    ck_assert_int_eq(config_head_joints(&config), 2);
+    ck_assert_double_eq_tol(elbow.min, -90 * M_PI / 180, 1e-12);
+    ck_assert_double_eq_tol(elbow.max, -5 * M_PI / 180, 1e-12);
+    ck_assert_double_eq_tol(pitch.min, -10 * M_PI / 180, 1e-12);
+    ck_assert_double_eq(pitch.velocity, config.head_velocity);
+    ck_assert_double_eq(elbow.safety_velocity, config.safety_arm_velocity);
+}
+END_TEST
+
+START_TEST(the_learner_gets_variances)
+{
+    struct config config = fixture_config(NULL, 0);
+    struct learner_config learner = config_learner(&config);
+
+    ck_assert_int_eq(learner.n_inputs, 4);
+    ck_assert_int_eq(learner.n_outputs, 3);
+    ck_assert_double_eq(learner.psi0[2],
+                        config.learner_noise_disparity * config.learner_noise_disparity);
+}
+END_TEST
+
+START_TEST(what_does_not_fit_together_is_refused)
+{
+    refuses("arm.max=[-80, -5, 15, -5]", "arm.min is not below arm.max at joint 1");
+    refuses("arm.max=[-5, -5, 15]", "as many entries");
+    refuses("babble.min=[-75, -30, -15, -90]", "babble range of joint 1");
+    refuses("babble.max=[-60, -5, 16, -40]", "babble range of joint 3");
+    refuses("head.min=[-40]", "as many entries");
+    refuses("motion.arm_velocity=100", "safety.arm_velocity");
+    refuses("motion.slow_down=13", "slow_down");
+    refuses("safety.arm_acceleration=201", "could not stop");
+    refuses("safety.state_suspend=0.01", "state_suspend");
+    refuses("head.search_velocity=100", "head.search_velocity");
+    refuses("learner.reference=[0]", "learner.reference");
+    refuses("learner.reach=nonsense", "not a number");
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
+                                  the_learner_gets_variances,
+                                  what_does_not_fit_together_is_refused};
+
+    return SUITE_RUN("config", tests);
+}

@@ -1,0 +1,198 @@
+/* The control step under bad weather: requests it must refuse, states that stay away, nonsense. */
+#include "fake_robot.h"
+#include "fixture.h"
+#include "tests/unit/suite.h"
+#include "tick.h"
+
+#include <math.h>
+#include <string.h>
+
+static struct config config;
+static struct arena *arena;
+static struct tick *tick;
+static struct fake_robot robot;
+static struct tick_inputs inputs;
+static struct tick_outputs outputs;
+static int64_t seq;
+
+static void begin(void)
+{
+    char error[256];
+
+    config = fixture_config(NULL, 0);
+    arena = arena_create(tick_memory(&config));
+    tick = tick_create(&config, arena, error, sizeof error);
+    ck_assert_msg(tick != NULL, "%s", error);
+    ck_assert_uint_eq(arena_used(arena), tick_memory(&config));
+    fake_robot_init(&robot, &config);
+    memset(&inputs, 0, sizeof inputs);
+    inputs.state_age = INFINITY;
+}
+
+static void step(bool with_state)
+{
+    inputs.has_state = with_state;
+    if (with_state) {
+        inputs.state = fake_robot_state(&robot);
+        inputs.state_age = 0;
+    }
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    tick_report(tick, robot.now, &outputs);
+    inputs.n_requests = 0;
+    if (outputs.has_command)
+        fake_robot_step(&robot, &outputs.command);
+}
+
+static int ask(reach_request_t request)
+{
+    request.seq = ++seq;
+    inputs.request[inputs.n_requests++] = request;
+    step(true);
+    return outputs.status.request_result;
+}
+
+START_TEST(before_any_state_nothing_is_sent)
+{
+    begin();
+    step(false);
+    ck_assert(!outputs.has_command);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_WAITING);
+    step(true);
+    ck_assert(outputs.has_command);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_IDLE);
+    ck_assert_int_eq(outputs.command.state_seq, 1);
+    arena_destroy(arena);
+}
+END_TEST
+
+START_TEST(requests_that_do_not_fit_are_refused)
+{
+    const reach_request_t babble = {.kind = REACH_REQUEST_T_BABBLE, .count = 3};
+
+    begin();
+    step(true);
+    ck_assert_int_eq(ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE}),
+                     REACH_STATUS_T_REFUSED_VALUE);
+    ck_assert_int_eq(ask((reach_request_t){.kind = REACH_REQUEST_T_SAVE}),
+                     REACH_STATUS_T_REFUSED_STATE); /* no directory */
+    ck_assert_int_eq(ask(babble), REACH_STATUS_T_ACCEPTED);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_ACTIVE);
+    ck_assert_int_eq(ask(babble), REACH_STATUS_T_REFUSED_STATE); /* busy */
+    ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_BABBLE);
+    ck_assert_int_eq(ask((reach_request_t){.kind = REACH_REQUEST_T_STOP}), REACH_STATUS_T_ACCEPTED);
+    ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_NONE);
+    arena_destroy(arena);
+}
+END_TEST
+
+START_TEST(a_repeated_request_is_carried_out_once)
+{
+    begin();
+    step(true);
+    ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3});
+    ask((reach_request_t){.kind = REACH_REQUEST_T_STOP});
+    seq--;
+    ck_assert_int_eq(ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3}),
+                     REACH_STATUS_T_ACCEPTED);
+    ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_NONE);
+    arena_destroy(arena);
+}
+END_TEST
+
+START_TEST(a_stale_state_stops_the_arm_and_a_fresh_one_resumes)
+{
+    begin();
+    step(true);
+    ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3, .seed = 5});
+    for (int i = 0; i < 20; i++)
+        step(true);
+    ck_assert_double_ne(outputs.command.velocity[0], 0);
+    inputs.state_age = 0.05;
+    for (int i = 0; i < 10; i++)
+        step(false);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_HOLD);
+    for (int i = 0; i < 6; i++)
+        ck_assert_double_eq(outputs.command.velocity[i], 0);
+    inputs.state_age = 0.2;
+    step(false);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_SUSPENDED);
+    step(true);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_ACTIVE);
+    ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_BABBLE);
+    arena_destroy(arena);
+}
+END_TEST
+
+START_TEST(a_fault_needs_a_reset)
+{
+    begin();
+    step(true);
+    inputs.overrunning = true;
+    step(true);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_FAULT);
+    inputs.overrunning = false;
+    step(true);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_FAULT);
+    ck_assert_int_eq(ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3}),
+                     REACH_STATUS_T_REFUSED_STATE);
+    ask((reach_request_t){.kind = REACH_REQUEST_T_RESET_FAULT});
+    step(true);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_IDLE);
+    arena_destroy(arena);
+}
+END_TEST
+
+/* Random bytes as messages, for a robot that obeys: limits hold, every command is finite. */
+START_TEST(nonsense_moves_nothing_beyond_its_limits)
+{
+    struct random_state random = fixture_random("test_tick");
+
+    begin();
+    step(true);
+    for (int round = 0; round < 50000; round++) {
+        unsigned char *bytes = (unsigned char *)&inputs;
+        bool sane = random_bits(&random) % 4 != 0;
+        inputs.n_markers = (int)(random_bits(&random) % (TICK_MAX_MARKERS + 1));
+        for (int i = 0; i < 40; i++)
+            bytes[offsetof(struct tick_inputs, marker) +
+                  random_bits(&random) % sizeof inputs.marker] =
+                (unsigned char)random_bits(&random);
+        for (int i = 0; i < 40; i++)
+            bytes[offsetof(struct tick_inputs, request) +
+                  random_bits(&random) % sizeof inputs.request] =
+                (unsigned char)random_bits(&random);
+        inputs.n_requests = (int)(random_bits(&random) % 3);
+        inputs.has_state = true;
+        inputs.state_age = 0;
+        inputs.state = fake_robot_state(&robot);
+        if (!sane)
+            inputs.state.position[random_bits(&random) % 6] = NAN;
+        tick_decide(tick, &inputs, robot.now, &outputs);
+        while (tick_learn(tick))
+            ;
+        tick_report(tick, robot.now, &outputs);
+        for (int i = 0; i < 6; i++) {
+            struct joint_limits limits = config_joint_limits(&config, i);
+            ck_assert(fabs(outputs.command.velocity[i]) <= limits.safety_velocity);
+            ck_assert(robot.q[i] >= limits.min - 1e-9 && robot.q[i] <= limits.max + 1e-9);
+        }
+        fake_robot_step(&robot, &outputs.command);
+    }
+    ck_assert_int_gt(outputs.status.bad_inputs, 1000);
+    arena_destroy(arena);
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {
+        before_any_state_nothing_is_sent,
+        requests_that_do_not_fit_are_refused,
+        a_repeated_request_is_carried_out_once,
+        a_stale_state_stops_the_arm_and_a_fresh_one_resumes,
+        a_fault_needs_a_reset,
+        nonsense_moves_nothing_beyond_its_limits,
+    };
+
+    return SUITE_RUN("tick", tests);
+}
