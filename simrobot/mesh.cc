@@ -114,9 +114,34 @@ std::vector<Ring> capsule_rings(double radius, double length)
             {radius, h, 1, 0},       {radius * s, h + radius * s, s, s},   {0, h + radius, 0, 1}};
 }
 
+bool is_shown(const Corner *corner, const View &view)
+{
+    Eigen::Vector3f a = corner[0].position - view.eye, b = corner[1].position - view.eye,
+                    c = corner[2].position - view.eye;
+
+    if ((b - a).cross(c - a).dot(a) >= 0)
+        return false;
+    for (const Eigen::Vector3f &inwards : view.inwards)
+        if (inwards.dot(a) < 0 && inwards.dot(b) < 0 && inwards.dot(c) < 0)
+            return false;
+    return true;
+}
+
 uint8_t byte_of(float value)
 {
     return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+}
+
+/* Lambert's law for the lamp; from all sides, more from above than from below. */
+Vertex lit(const Corner &corner, const LightState &light)
+{
+    float lamp = std::max(0.0f, corner.normal.dot(light.direction));
+    float sky = 0.75f + 0.25f * corner.normal.z();
+    Eigen::Vector3f colour = corner.colour.cwiseProduct(light.colour * lamp + light.ambient * sky);
+
+    return {{corner.position.x(), corner.position.y(), corner.position.z()},
+            {byte_of(colour.x()), byte_of(colour.y()), byte_of(colour.z()), 255},
+            {corner.texture.x(), corner.texture.y()}};
 }
 
 } // namespace
@@ -153,17 +178,14 @@ void mesh_append_rectangle(const Eigen::Vector3f &corner, const Eigen::Vector3f 
         }
 }
 
-/* Lambert's law for the lamp; from all sides, more from above than from below. */
-void mesh_light(const Corners &corners, const LightState &light, std::vector<Vertex> *vertices)
+void mesh_show(const Corners &corners, const LightState &light, const View &view,
+               std::vector<Vertex> *vertices)
 {
-    for (const Corner &corner : corners) {
-        float lamp = std::max(0.0f, corner.normal.dot(light.direction));
-        float sky = 0.75f + 0.25f * corner.normal.z();
-        Eigen::Vector3f colour =
-            corner.colour.cwiseProduct(light.colour * lamp + light.ambient * sky);
-        vertices->push_back({{corner.position.x(), corner.position.y(), corner.position.z()},
-                             {byte_of(colour.x()), byte_of(colour.y()), byte_of(colour.z()), 255},
-                             {corner.texture.x(), corner.texture.y()}});
+    for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+        if (!is_shown(&corners[i], view))
+            continue;
+        for (size_t k = i; k < i + 3; k++)
+            vertices->push_back(lit(corners[k], light));
     }
 }
 

@@ -37,8 +37,17 @@ void mesh_append_rectangle(const Eigen::Vector3f &corner, const Eigen::Vector3f 
                            const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour, int cells,
                            float repeat, Corners *corners);
 
-/* Appends the corners under this light. */
-void mesh_light(const Corners &corners, const LightState &light, std::vector<Vertex> *vertices);
+/* What an eye can see: its place, and the planes through it that bound the image, normals inwards.
+ */
+struct View {
+    Eigen::Vector3f eye;
+    Eigen::Vector3f inwards[4];
+};
+
+/* Appends, under this light, the triangles that face the eye and may be in its image. The others
+ * would cost the renderer much more than they cost here. */
+void mesh_show(const Corners &corners, const LightState &light, const View &view,
+               std::vector<Vertex> *vertices);
 
 } // namespace sim
 #endif

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 #include "simrobot/gl_program.h"
 #include "simrobot/scene.h"
@@ -104,8 +105,8 @@ void Renderer::make_scene()
     table_ = scene_table();
     walls_ = scene_walls();
     things_ = scene_things();
-    batches_ = {{gl_texture(scene_wood(texture_size), texture_size), 0, 0},
-                {gl_texture(scene_wallpaper(texture_size), texture_size), 0, 0},
+    batches_ = {{gl_texture(scene_wallpaper(texture_size), texture_size), 0, 0},
+                {gl_texture(scene_wood(texture_size), texture_size), 0, 0},
                 {0, 0, 0}};
 
     glGenVertexArrays(1, &empty_array_);
@@ -123,23 +124,22 @@ void Renderer::make_scene()
         glEnableVertexAttribArray(i);
 }
 
-void Renderer::fill_vertices(const Snapshot &snapshot)
+void Renderer::fill_vertices(const LightState &light, const View &view)
 {
-    Corners moving;
+    const Corners *contents[] = {&walls_, &table_, &things_, &moving_};
+    const size_t batch_of[] = {0, 1, 2, 2};
 
-    for (const Shape &shape : snapshot.shapes)
-        mesh_append(shape, &moving);
     vertices_.clear();
-    size_t batch = 0;
-    for (const Corners *corners : {&table_, &walls_}) {
-        batches_[batch].first = static_cast<GLsizei>(vertices_.size());
-        mesh_light(*corners, snapshot.light, &vertices_);
-        batches_[batch++].count = static_cast<GLsizei>(corners->size());
+    for (Batch &batch : batches_)
+        batch.first = batch.count = 0;
+    for (size_t i = 0; i < std::size(contents); i++) {
+        Batch &batch = batches_[batch_of[i]];
+        auto before = static_cast<GLsizei>(vertices_.size());
+        mesh_show(*contents[i], light, view, &vertices_);
+        if (batch.count == 0)
+            batch.first = before;
+        batch.count += static_cast<GLsizei>(vertices_.size()) - before;
     }
-    batches_[batch].first = static_cast<GLsizei>(vertices_.size());
-    mesh_light(things_, snapshot.light, &vertices_);
-    mesh_light(moving, snapshot.light, &vertices_);
-    batches_[batch].count = static_cast<GLsizei>(things_.size() + moving.size());
     glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(Vertex)),
                  vertices_.data(), GL_STREAM_DRAW);
@@ -147,9 +147,9 @@ void Renderer::fill_vertices(const Snapshot &snapshot)
 
 void Renderer::draw(const Snapshot &snapshot, StereoPixels *pixels)
 {
-    fill_vertices(snapshot);
-    glViewport(0, 0, 2 * width_, height_);
-    glClearColor(0, 0, 0, 1);
+    moving_.clear();
+    for (const Shape &shape : snapshot.shapes)
+        mesh_append(shape, &moving_);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glViewport(0, 0, width_, height_);
@@ -160,8 +160,21 @@ void Renderer::draw(const Snapshot &snapshot, StereoPixels *pixels)
     glReadPixels(0, 0, 2 * width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels->data());
 }
 
+View Renderer::view_from(const Eigen::Isometry3d &eye) const
+{
+    auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+    Eigen::Matrix3f turn = eye.linear().cast<float>();
+
+    return {eye.translation().cast<float>(),
+            {turn * Eigen::Vector3f(width / 2, focal_length_, 0),
+             turn * Eigen::Vector3f(width / 2, -focal_length_, 0),
+             turn * Eigen::Vector3f(height / 2, 0, focal_length_),
+             turn * Eigen::Vector3f(height / 2, 0, -focal_length_)}};
+}
+
 void Renderer::draw_eye(const Eigen::Isometry3d &eye, const Snapshot &snapshot)
 {
+    fill_vertices(snapshot.light, view_from(eye));
     draw_scene(projection(focal_length_, width_, height_) * eye.inverse().cast<float>().matrix());
     draw_ball(eye, snapshot);
 }

@@ -46,7 +46,8 @@ private:
     bool make_programs(std::string *error);
     bool make_target(std::string *error);
     void make_scene();
-    void fill_vertices(const Snapshot &snapshot);
+    View view_from(const Eigen::Isometry3d &eye) const;
+    void fill_vertices(const LightState &light, const View &view);
     void draw_eye(const Eigen::Isometry3d &eye, const Snapshot &snapshot);
     void draw_scene(const Eigen::Matrix4f &view);
     void draw_ball(const Eigen::Isometry3d &eye, const Snapshot &snapshot);
@@ -59,6 +60,7 @@ private:
     GLuint target_ = 0, colour_buffer_ = 0, depth_buffer_ = 0;
     GLuint vertex_array_ = 0, empty_array_ = 0, vertex_buffer_ = 0;
     Corners table_, walls_, things_;
+    Corners moving_; /* the robot and its tool, made anew for each pair */
     std::vector<Batch> batches_;
     std::vector<Vertex> vertices_;
 };
