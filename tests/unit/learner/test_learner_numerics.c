@@ -1,0 +1,205 @@
+/* What breaks learners: still data, offsets, forgetting, extreme scales, input that is no number;
+ * and that nothing is allocated after creation. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "daemon/imle_triangle.h"
+#include "tests/unit/learner/bed.h"
+#include "tests/unit/suite.h"
+
+static struct learner_prediction prediction;
+static struct learner_inverse inverse;
+
+static volatile long allocations;
+
+/* glibc's allocator, counted; the sanitizers bring their own, which must stay. */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void *__libc_malloc(size_t bytes);
+void *__libc_calloc(size_t n, size_t bytes);
+void *__libc_realloc(void *block, size_t bytes);
+void *malloc(size_t bytes)
+{
+    allocations++;
+    return __libc_malloc(bytes);
+}
+
+void *calloc(size_t n, size_t bytes)
+{
+    allocations++;
+    return __libc_calloc(n, bytes);
+}
+
+void *realloc(void *block, size_t bytes)
+{
+    allocations++;
+    return __libc_realloc(block, bytes);
+}
+#endif
+
+static struct learner_config config_for(enum learner_features features, double alpha)
+{
+    struct learner_config config = learner_config_default(2, 2);
+
+    config.features = features;
+    config.alpha = alpha;
+    config.capacity = 32;
+    config.psi0[0] = config.psi0[1] = 0.01;
+    config.sigma0[0] = config.sigma0[1] = 0.1;
+    config.clustering =
+        features == LEARNER_LINEAR ? LEARNER_CLUSTER_PUBLISHED : LEARNER_CLUSTER_LEADER;
+    config.gamma_floor = features == LEARNER_LINEAR ? 0.0 : 0.05;
+    return config;
+}
+
+static void expect_finite(struct learner *learner, const double *z)
+{
+    ck_assert_int_ge(learner_predict(learner, z, &prediction), 1);
+    for (int k = 0; k < prediction.n_solutions; k++) {
+        const struct learner_solution *s = &prediction.solution[k];
+        ck_assert(isfinite(s->weight) && isfinite(s->value[0]) && isfinite(s->value[1]));
+        ck_assert(s->variance[0] > 0.0);
+        for (int i = 0; i < 4; i++)
+            ck_assert(isfinite(s->jacobian[i]));
+    }
+}
+
+/* A robot that holds still within `jitter` of an offset, and then moves and must still learn. */
+static void hold_still(const struct learner_config *config, double offset, double jitter, int n)
+{
+    struct learner *learner = bed_create(config);
+    double z[2], x[2];
+
+    for (int k = 0; k < n + 3000; k++) {
+        double range = k < n ? jitter : 0.3;
+        z[0] = offset + range * bed_uniform(-1.0, 1.0);
+        z[1] = offset + range * bed_uniform(-1.0, 1.0);
+        x[0] = 2.0 * (z[0] - offset) + 1.0;
+        x[1] = z[1] - z[0];
+        ck_assert_int_ne(learner_update(learner, z, x), LEARNER_REFUSED);
+        if (k > 2 && k % 997 == 0)
+            expect_finite(learner, z);
+    }
+    expect_finite(learner, z);
+    ck_assert_double_eq_tol(prediction.solution[0].value[0], x[0], 0.3);
+    bed_clean();
+}
+
+START_TEST(a_still_robot_breaks_nothing)
+{
+    const double alphas[] = {0.9, 0.99, 1.0};
+    const double offsets[] = {0.0, 100.0, 1000.0};
+    const double jitters[] = {0.0, 0.001, 0.1};
+
+    bed_seed();
+    for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++)
+        for (int a = 0; a < 3; a++)
+            for (int k = 0; k < 3; k++) {
+                struct learner_config config =
+                    config_for((enum learner_features)features, alphas[a]);
+                config.reference[0] = config.reference[1] =
+                    features == LEARNER_LINEAR ? 0.0 : offsets[k];
+                hold_still(&config, offsets[k], jitters[(a + k) % 3], 20000);
+            }
+}
+END_TEST
+
+START_TEST(collinear_and_huge_inputs_stay_finite)
+{
+    bed_seed();
+    for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
+        struct learner_config config = config_for((enum learner_features)features, 0.95);
+        struct learner *learner = bed_create(&config);
+        for (int n = 0; n < 3000; n++) {
+            double size = pow(10.0, bed_uniform(-9.0, 9.0));
+            double z[2] = {size, size};
+            double x[2] = {-size, bed_uniform(-1.0, 1.0) * size};
+            ck_assert_int_ne(learner_update(learner, z, x), LEARNER_REFUSED);
+            if (n > 2)
+                expect_finite(learner, z);
+        }
+        bed_clean();
+    }
+}
+END_TEST
+
+START_TEST(what_is_no_number_is_refused)
+{
+    struct learner_config config = config_for(LEARNER_LINEAR, 0.999);
+    struct learner *learner = bed_create(&config);
+    const double good[2] = {0.1, 0.2};
+    const double bad[][2] = {{NAN, 0.0}, {0.0, INFINITY}, {-INFINITY, 0.0}, {1e10, 0.0}};
+
+    for (int n = 0; n < 4; n++) {
+        ck_assert_int_eq(learner_update(learner, bad[n], good), LEARNER_REFUSED);
+        ck_assert_int_eq(learner_update(learner, good, bad[n]), LEARNER_REFUSED);
+    }
+    ck_assert_uint_eq(learner_get_statistics(learner).refused, 8);
+    ck_assert_int_eq(learner_predict(learner, good, &prediction), 0);
+    learner_update(learner, good, good);
+    learner_update(learner, good, good);
+    ck_assert_int_eq(learner_predict(learner, good, &prediction), 1);
+    ck_assert_int_eq(learner_predict(learner, bad[0], &prediction), 0);
+    ck_assert_int_eq(learner_predict_inverse(learner, bad[1], &inverse), 0);
+    bed_clean();
+}
+END_TEST
+
+START_TEST(nothing_is_allocated_after_creation)
+{
+    bed_seed();
+    for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
+        struct learner_config config = config_for((enum learner_features)features, 0.999);
+        struct learner *learner = bed_create(&config);
+        struct learner_solution single;
+        long before = allocations;
+        for (int n = 0; n < 500; n++) {
+            double z[2] = {bed_uniform(-1.0, 1.0), bed_uniform(-1.0, 1.0)};
+            double x[2] = {sin(3.0 * z[0]) + n % 2, cos(3.0 * z[1])};
+            learner_update(learner, z, x);
+            learner_predict(learner, z, &prediction);
+            learner_predict_single(learner, z, &single);
+            learner_predict_inverse(learner, x, &inverse);
+        }
+        ck_assert_int_eq(allocations - before, 0);
+        ck_assert_int_gt(learner_get_statistics(learner).experts, 3);
+        bed_clean();
+    }
+}
+END_TEST
+
+/* A factor that a million samples have gone through is that of the matrix they add up to. */
+START_TEST(factors_do_not_drift)
+{
+    enum { N = 5 };
+    const double factor = 0.999;
+    double L[15], C[15], v[N], copy[N];
+
+    bed_seed();
+    triangle_set_diagonal(N, L, 1.0);
+    triangle_set_diagonal(N, C, 1.0);
+    for (int n = 0; n < 1000000; n++) {
+        for (int i = 0; i < N; i++)
+            copy[i] = v[i] = bed_uniform(-1.0, 1.0) * (i + 1);
+        triangle_update(N, L, factor, copy);
+        for (int i = 0; i < N; i++)
+            for (int k = i; k < N; k++) {
+                double *entry = C + triangle_column(N, i) + (size_t)(k - i);
+                *entry = factor * *entry + v[i] * v[k];
+            }
+    }
+    ck_assert_int_eq(triangle_factor(N, C), 0);
+    for (int i = 0; i < 15; i++)
+        ck_assert_double_eq_tol(L[i], C[i], 1e-10 * (1.0 + fabs(C[i])));
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {
+        a_still_robot_breaks_nothing, collinear_and_huge_inputs_stay_finite,
+        what_is_no_number_is_refused, nothing_is_allocated_after_creation,
+        factors_do_not_drift,
+    };
+
+    return SUITE_RUN("learner numerics", tests);
+}
