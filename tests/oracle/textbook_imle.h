@@ -23,7 +23,7 @@ struct Parameters {
     double w_Psi = 2;   /* each expert's; may be infinite */
     double w_Lambda = 0.1;
     double floor = 0.01; /* least share of w_Sigma, w_nu and w_Psi; w_Sigma never under d */
-    double skip = 0; /* an expert that takes no more than this of a sample has no M-step */
+    double skip = 0;     /* an expert that takes no more than this of a sample has no M-step */
     int n_outliers = 1;
     double p0 = 0.1;
     double significance = 0.99;
@@ -70,6 +70,10 @@ private:
         Eigen::VectorXd x;
         Eigen::VectorXd kappa, dgamma;
     };
+    struct Cluster {
+        std::vector<int> members;
+        Eigen::VectorXd center;
+    };
 
     Expert newborn(const Eigen::VectorXd &z, const Eigen::VectorXd &x) const;
     void learn(Expert &e, double h, const Eigen::VectorXd &z, const Eigen::VectorXd &x) const;
@@ -84,7 +88,15 @@ private:
     double outlier_input() const;
     double outlier_joint() const;
     Solution fuse(const std::vector<Answer> &answers, const std::vector<int> &members) const;
-    std::vector<std::vector<int>> cluster(const std::vector<Answer> &answers) const;
+    std::vector<Cluster> cluster(const std::vector<Answer> &answers) const;
+    Eigen::VectorXd precision(const Answer &a, int expert) const;
+    Eigen::VectorXd center(const std::vector<Answer> &all, const Eigen::VectorXd &probability,
+                           const Eigen::VectorXd &otherwise) const;
+    double level(const std::vector<Answer> &all, const Cluster &cluster) const;
+    int farthest(const std::vector<Answer> &all, const Cluster &cluster,
+                 const Eigen::VectorXd &x) const;
+    void em_iteration(const std::vector<Answer> &all, std::vector<Cluster> &clusters) const;
+    void assign(const std::vector<Answer> &all, std::vector<Cluster> &clusters) const;
     std::vector<Answer> answers(const Eigen::VectorXd &z) const;
     double deviation(const Answer &a, int expert, const Eigen::VectorXd &center) const;
 

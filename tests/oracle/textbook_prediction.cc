@@ -87,97 +87,102 @@ Solution TextbookImle::fuse(const std::vector<Answer> &all, const std::vector<in
     return s;
 }
 
-std::vector<std::vector<int>> TextbookImle::cluster(const std::vector<Answer> &all) const
+VectorXd TextbookImle::precision(const Answer &a, int expert) const
 {
-    const int n = int(all.size());
-    std::vector<std::vector<int>> members(1);
-    std::vector<VectorXd> center(1);
-    auto weight = [&](int j) {
-        return VectorXd(all[size_t(j)].phi * experts_[size_t(j)].Psi.cwiseInverse());
-    };
-    VectorXd sum = VectorXd::Zero(p_.D), weights = sum;
-    for (int j = 0; j < n; j++) {
-        members[0].push_back(j);
-        sum += weight(j).cwiseProduct(all[size_t(j)].x);
-        weights += weight(j);
-    }
-    center[0] = sum.cwiseQuotient(weights);
+    return a.phi * experts_[size_t(expert)].Psi.cwiseInverse();
+}
 
-    while (int(members.size()) < p_.n_solutions_max) {
-        size_t worst = 0, clusters = members.size();
-        double largest = 0;
-        for (size_t k = 0; k < clusters; k++) {
-            double T = 0, t = 0, tt = 0;
-            for (int j : members[k]) {
-                T += deviation(all[size_t(j)], j, center[k]);
-                t += all[size_t(j)].t;
-                tt += all[size_t(j)].t * all[size_t(j)].t;
-            }
-            double level = members[k].size() < 2 ? 0 : chi2_cdf((t * t / tt - 1) * p_.D + 1, T);
-            if (level > largest) {
-                largest = level;
-                worst = k;
-            }
-        }
-        if (largest <= p_.significance)
+/* Mean of all answers, each weighted by R_j^-1 and its probability. */
+VectorXd TextbookImle::center(const std::vector<Answer> &all, const VectorXd &probability,
+                              const VectorXd &otherwise) const
+{
+    VectorXd top = VectorXd::Zero(p_.D), bottom = top;
+    for (int j = 0; j < experts(); j++) {
+        VectorXd weight = probability(j) * precision(all[size_t(j)], j);
+        top += weight.cwiseProduct(all[size_t(j)].x);
+        bottom += weight;
+    }
+    return (bottom.array() > 0).all() ? VectorXd(top.cwiseQuotient(bottom)) : otherwise;
+}
+
+double TextbookImle::level(const std::vector<Answer> &all, const Cluster &cluster) const
+{
+    double T = 0, t = 0, tt = 0;
+    for (int j : cluster.members) {
+        T += deviation(all[size_t(j)], j, cluster.center);
+        t += all[size_t(j)].t;
+        tt += all[size_t(j)].t * all[size_t(j)].t;
+    }
+    return cluster.members.size() < 2 ? 0 : chi2_cdf((t * t / tt - 1) * p_.D + 1, T);
+}
+
+int TextbookImle::farthest(const std::vector<Answer> &all, const Cluster &cluster,
+                           const VectorXd &x) const
+{
+    return *std::max_element(cluster.members.begin(), cluster.members.end(), [&](int i, int j) {
+        return deviation(all[size_t(i)], i, x) < deviation(all[size_t(j)], j, x);
+    });
+}
+
+void TextbookImle::em_iteration(const std::vector<Answer> &all,
+                                std::vector<Cluster> &clusters) const
+{
+    MatrixXd p(experts(), Eigen::Index(clusters.size()));
+    for (int j = 0; j < experts(); j++) {
+        for (size_t k = 0; k < clusters.size(); k++)
+            p(j, Eigen::Index(k)) = -0.5 * deviation(all[size_t(j)], j, clusters[k].center);
+        p.row(j) = (p.row(j).array() - p.row(j).maxCoeff()).exp();
+        p.row(j) /= p.row(j).sum();
+    }
+    for (size_t k = 0; k < clusters.size(); k++)
+        clusters[k].center = center(all, p.col(Eigen::Index(k)), clusters[k].center);
+}
+
+void TextbookImle::assign(const std::vector<Answer> &all, std::vector<Cluster> &clusters) const
+{
+    for (Cluster &cluster : clusters)
+        cluster.members.clear();
+    for (int j = 0; j < experts(); j++)
+        std::min_element(clusters.begin(), clusters.end(), [&](const Cluster &a, const Cluster &b) {
+            return deviation(all[size_t(j)], j, a.center) < deviation(all[size_t(j)], j, b.center);
+        })->members.push_back(j);
+    clusters.erase(std::remove_if(clusters.begin(), clusters.end(),
+                                  [](const Cluster &c) { return c.members.empty(); }),
+                   clusters.end());
+}
+
+std::vector<TextbookImle::Cluster> TextbookImle::cluster(const std::vector<Answer> &all) const
+{
+    std::vector<Cluster> clusters(1);
+    for (int j = 0; j < experts(); j++)
+        clusters[0].members.push_back(j);
+    clusters[0].center = center(all, VectorXd::Ones(experts()), VectorXd());
+    while (int(clusters.size()) < p_.n_solutions_max) {
+        size_t before = clusters.size();
+        auto worst = std::max_element(
+            clusters.begin(), clusters.end(),
+            [&](const Cluster &a, const Cluster &b) { return level(all, a) < level(all, b); });
+        if (level(all, *worst) <= p_.significance)
             break;
-        auto farthest = [&](const VectorXd &x) {
-            return *std::max_element(
-                members[worst].begin(), members[worst].end(), [&](int i, int j) {
-                    return deviation(all[size_t(i)], i, x) < deviation(all[size_t(j)], j, x);
-                });
-        };
-        int first = farthest(center[worst]);
-        int second = farthest(all[size_t(first)].x);
-        center[worst] = all[size_t(first)].x;
-        center.push_back(all[size_t(second)].x);
-        for (int iteration = 0; iteration < p_.em_pred_iterations; iteration++) {
-            MatrixXd p(n, Eigen::Index(center.size()));
-            for (int j = 0; j < n; j++) {
-                for (size_t k = 0; k < center.size(); k++)
-                    p(j, Eigen::Index(k)) = -0.5 * deviation(all[size_t(j)], j, center[k]);
-                p.row(j) = (p.row(j).array() - p.row(j).maxCoeff()).exp();
-                p.row(j) /= p.row(j).sum();
-            }
-            for (size_t k = 0; k < center.size(); k++) {
-                VectorXd top = VectorXd::Zero(p_.D), bottom = top;
-                for (int j = 0; j < n; j++) {
-                    top += p(j, Eigen::Index(k)) * weight(j).cwiseProduct(all[size_t(j)].x);
-                    bottom += p(j, Eigen::Index(k)) * weight(j);
-                }
-                if ((bottom.array() > 0).all())
-                    center[k] = top.cwiseQuotient(bottom);
-            }
-        }
-        std::vector<std::vector<int>> assigned(center.size());
-        for (int j = 0; j < n; j++) {
-            size_t best = 0;
-            for (size_t k = 1; k < center.size(); k++)
-                if (deviation(all[size_t(j)], j, center[k]) <
-                    deviation(all[size_t(j)], j, center[best]))
-                    best = k;
-            assigned[best].push_back(j);
-        }
-        members.clear();
-        std::vector<VectorXd> kept;
-        for (size_t k = 0; k < assigned.size(); k++)
-            if (!assigned[k].empty()) {
-                members.push_back(assigned[k]);
-                kept.push_back(center[k]);
-            }
-        center = kept;
-        if (members.size() <= clusters)
+        int first = farthest(all, *worst, worst->center);
+        int second = farthest(all, *worst, all[size_t(first)].x);
+        worst->center = all[size_t(first)].x;
+        clusters.push_back({{}, all[size_t(second)].x});
+        for (int iteration = 0; iteration < p_.em_pred_iterations; iteration++)
+            em_iteration(all, clusters);
+        assign(all, clusters);
+        if (clusters.size() <= before)
             break;
     }
-    return members;
+    return clusters;
 }
 
 std::vector<Solution> TextbookImle::predict(const VectorXd &z) const
 {
     std::vector<Solution> solutions;
     std::vector<Answer> all = answers(z);
-    for (const std::vector<int> &members : cluster(all))
-        solutions.push_back(fuse(all, members));
+    for (const Cluster &c : cluster(all))
+        solutions.push_back(fuse(all, c.members));
     std::stable_sort(solutions.begin(), solutions.end(),
                      [](const Solution &a, const Solution &b) { return a.weight > b.weight; });
     return solutions;
