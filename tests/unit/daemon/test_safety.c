@@ -95,6 +95,21 @@ START_TEST(a_good_command_passes_untouched)
 }
 END_TEST
 
+START_TEST(what_is_not_a_number_becomes_rest)
+{
+    struct config config = fixture_config(NULL, 0);
+    double q[MAX_JOINTS] = {-1.1, -0.3, 0, -1.1, 0, 0.1};
+    double velocity[MAX_JOINTS] = {NAN, INFINITY, -INFINITY, NAN, -NAN, NAN};
+    struct safety safety;
+
+    safety_init(&safety, &config);
+    ck_assert(safety_gate(&safety, q, velocity));
+    for (int i = 0; i < 6; i++)
+        ck_assert_double_eq(velocity[i], 0);
+    ck_assert_int_eq(safety.changed, 1);
+}
+END_TEST
+
 START_TEST(beyond_a_limit_only_the_way_back_is_open)
 {
     struct config config = fixture_config(NULL, 0);
@@ -117,6 +132,7 @@ int main(void)
 {
     const TTest *const tests[] = {no_wish_passes_a_limit, velocity_changes_no_faster_than_allowed,
                                   a_good_command_passes_untouched,
+                                  what_is_not_a_number_becomes_rest,
                                   beyond_a_limit_only_the_way_back_is_open};
 
     return SUITE_RUN("safety", tests);

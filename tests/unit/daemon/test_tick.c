@@ -142,6 +142,21 @@ START_TEST(a_fault_needs_a_reset)
 }
 END_TEST
 
+START_TEST(a_state_that_is_not_a_number_is_dropped)
+{
+    begin();
+    step(true);
+    inputs.state = fake_robot_state(&robot);
+    inputs.state.position[2] = NAN;
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    tick_report(tick, robot.now, &outputs);
+    ck_assert_int_eq(outputs.status.bad_inputs, 1);
+    ck_assert_int_eq(outputs.status.state_seq, 1); /* the last good one is kept */
+    ck_assert_int_eq(outputs.trace.state_seq, 0);
+    arena_destroy(arena);
+}
+END_TEST
+
 /* Random bytes as messages, for a robot that obeys: limits hold, every command is finite. */
 START_TEST(nonsense_moves_nothing_beyond_its_limits)
 {
@@ -191,6 +206,7 @@ int main(void)
         a_repeated_request_is_carried_out_once,
         a_stale_state_stops_the_arm_and_a_fresh_one_resumes,
         a_fault_needs_a_reset,
+        a_state_that_is_not_a_number_is_dropped,
         nonsense_moves_nothing_beyond_its_limits,
     };
 
