@@ -86,7 +86,7 @@ const struct option_row tool_rows[] = {
      "where it points, in the frame of robot.hand_link", nullptr},
     {"rigidity", OPTION_NUMBER, TOOL(rigidity), "N m2", "0.08", 0.005, 100,
      "tube: bending stiffness E I; sets droop and frequency", nullptr},
-    {"damping", OPTION_NUMBER, TOOL(damping), "s", "0.02", 0, 1,
+    {"damping", OPTION_NUMBER, TOOL(damping), "s", "0.03", 0, 1,
      "tube: loss in bending, as the ratio of damping to stiffness", nullptr},
     {"colour", OPTION_LIST, TOOL(colour), nullptr, "[0.16, 0.15, 0.17]", 0, 1, "red, green, blue", nullptr},
 };
