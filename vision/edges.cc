@@ -75,19 +75,21 @@ static float dot(const rgb &a, const rgb &b)
     return a.channel[0] * b.channel[0] + a.channel[1] * b.channel[1] + a.channel[2] * b.channel[2];
 }
 
-/* Last distance along a ray that has the ball's colour, or -1. */
+/* Last distance along a ray that has the ball's colour, or -1. Steps in 1/65536 px. */
 static int coarse_end(const image_view &image, const colour_table &colours,
                       const pixel_point &start, double x, double y, int reach)
 {
     const int red = image_red(image);
+    const int step_x = static_cast<int>(x * 65536);
+    const int step_y = static_cast<int>(y * 65536);
+    int column = static_cast<int>((start.column + 0.5) * 65536);
+    int row = static_cast<int>((start.row + 0.5) * 65536);
     int last = -1;
 
-    for (int distance = 0; distance <= reach; distance++) {
-        const int column = static_cast<int>(std::floor(start.column + x * distance + 0.5));
-        const int row = static_cast<int>(std::floor(start.row + y * distance + 0.5));
-        if (column < 0 || row < 0 || column >= image.width || row >= image.height)
+    for (int distance = 0; distance <= reach; distance++, column += step_x, row += step_y) {
+        if (column < 0 || row < 0 || column >> 16 >= image.width || row >> 16 >= image.height)
             return -1;
-        if (colour_member(colours, image_pixel(image, column, row), red))
+        if (colour_member(colours, image_pixel(image, column >> 16, row >> 16), red))
             last = distance;
         else if (last >= 0 && distance - last >= outside_run)
             return last;

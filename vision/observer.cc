@@ -22,9 +22,7 @@ void observer::complain(const char *what, const char *reason)
     if (complained_at_ != 0 && now - complained_at_ < complaint_period)
         return;
     complained_at_ = now;
-    log_warning("%s: %s (%lld malformed, %lld unusable so far)", what, reason,
-                static_cast<long long>(counts_.malformed),
-                static_cast<long long>(counts_.reasons[STEREO_UNUSABLE]));
+    log_warning("%s: %s", what, reason);
 }
 
 void observer::refuse(const char *reason)

@@ -5,6 +5,7 @@
 static const int least_support = 12; /* of OUTLINE_RAYS: with fewer a fit means nothing */
 static const int refine_rounds = 3;
 static const int consensus_stride = 3;
+static const double agreed_share = 0.95; /* of the points: no better cone is looked for */
 
 /* The cone of m = axis / cos. No cone has |m| <= 1. */
 static bool cone_of(const direction &m, outline *cone)
@@ -58,27 +59,72 @@ static void count_support(const outline_points &points, double focal, double tol
     cone->rms = cone->support ? std::sqrt(sum / cone->support) : 0;
 }
 
+/* The valid directions side by side, in single precision: enough to count with, and what the
+ * compiler can count four at a time. */
+struct packed_views {
+    float x[OUTLINE_RAYS];
+    float y[OUTLINE_RAYS];
+    float z[OUTLINE_RAYS];
+    int n;
+};
+
+static packed_views pack(const outline_points &points)
+{
+    packed_views packed;
+
+    packed.n = 0;
+    for (int i = 0; i < OUTLINE_RAYS; i++) {
+        if (!points.valid[i])
+            continue;
+        packed.x[packed.n] = static_cast<float>(points.view[i].x);
+        packed.y[packed.n] = static_cast<float>(points.view[i].y);
+        packed.z[packed.n] = static_cast<float>(points.view[i].z);
+        packed.n++;
+    }
+    return packed;
+}
+
+static int count_near(const packed_views &views, double focal, double tolerance,
+                      const outline &cone)
+{
+    const float x = static_cast<float>(cone.axis.x);
+    const float y = static_cast<float>(cone.axis.y);
+    const float z = static_cast<float>(cone.axis.z);
+    const float cosine = static_cast<float>(cone.cosine);
+    const float limit = static_cast<float>(tolerance / focal * cone.tangent * cone.cosine);
+    int near = 0;
+
+    for (int i = 0; i < views.n; i++) {
+        const float off = x * views.x[i] + y * views.y[i] + z * views.z[i] - cosine;
+        near += off <= limit && off >= -limit;
+    }
+    return near;
+}
+
 bool outline_consensus(const outline_points &points, double focal, double tolerance, outline *cone)
 {
     static const int spans[] = {OUTLINE_RAYS / 3, OUTLINE_RAYS / 4, OUTLINE_RAYS / 6};
-    bool found = false;
+    const packed_views views = pack(points);
+    const int enough = static_cast<int>(agreed_share * views.n);
+    int best = 0;
 
     for (int span : spans)
-        for (int i = 0; i < OUTLINE_RAYS; i += consensus_stride) {
+        for (int i = 0; i < OUTLINE_RAYS && best <= enough; i += consensus_stride) {
             const int j = (i + span) % OUTLINE_RAYS;
             const int k = (j + span) % OUTLINE_RAYS;
             outline trial;
             if (!points.valid[i] || !points.valid[j] || !points.valid[k] ||
                 !through_three(points.view[i], points.view[j], points.view[k], &trial))
                 continue;
-            count_support(points, focal, tolerance, &trial);
-            if (!found || trial.support > cone->support ||
-                (trial.support == cone->support && trial.rms < cone->rms)) {
+            const int near = count_near(views, focal, tolerance, trial);
+            if (near > best) {
                 *cone = trial;
-                found = true;
+                best = near;
             }
         }
-    return found;
+    if (best > 0)
+        count_support(points, focal, tolerance, cone);
+    return best > 0;
 }
 
 /* Sums of the normal equations of m . d = 1. */

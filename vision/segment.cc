@@ -7,8 +7,9 @@
 
 #include "vision/edges.h"
 
-static const int fine_rounds = 3;
+static const int fine_rounds = 2;
 static const double coarse_tolerance = 2;  /* px: edges to the pixel, and ragged ones */
+static const double coarse_share = 0.5;    /* of coverage_min: less is not worth a close look */
 static const double fine_tolerance = 1.5;  /* px */
 static const double trim_tolerance = 0.35; /* px: closer than this no edge point is left out */
 static const int fill_grid = 9;            /* the disc is sampled on a grid of this many rows */
@@ -92,6 +93,7 @@ static bool fit_outline(const segmenter &work, const image_view &image, const ca
     edges_coarse(image, work.colours, eye, piece.centre, std::max(piece.width, piece.height),
                  &points);
     if (!outline_consensus(points, eye.focal, coarse_tolerance, cone) ||
+        cone->support < coarse_share * work.limits.coverage_min * OUTLINE_RAYS ||
         !outline_refine(points, eye.focal, coarse_tolerance, coarse_tolerance, cone))
         return false;
     for (int round = 0; round < fine_rounds; round++) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "common/bus.h"
+#include "common/log.h"
 #include "fixture.h"
 #include "vision/observer.h"
 
@@ -334,6 +335,7 @@ int main()
         only_live_pairs_are_passed_over,
     };
 
+    log_open("test_vision_sequence", LOG_LEVEL_ERROR);
     draw_motion();
     return SUITE_RUN("vision sequence", tests);
 }

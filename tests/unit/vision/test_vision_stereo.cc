@@ -41,6 +41,27 @@ static blob resized(blob found, double factor)
     return found;
 }
 
+START_TEST(pixels_count_from_the_middle_of_the_picture)
+{
+    camera eye = {640, 480, 1200, 0, 0, 0, 0};
+
+    /* The middle of the picture lies between columns 319 and 320. */
+    direction view = camera_direction(eye, {319.5 + 120, 239.5 - 60});
+    ck_assert_double_eq_tol(view.x / view.z, 0.1, 1e-12);
+    ck_assert_double_eq_tol(view.y / view.z, -0.05, 1e-12);
+    eye.centre_u = 7;
+    eye.centre_v = -3;
+    eye.k1 = -0.2;
+    eye.k2 = 0.1;
+    const pixel_point pixel = {20, 450};
+    view = camera_direction(eye, pixel);
+    const pixel_point back = camera_project(eye, view);
+    ck_assert_double_eq_tol(back.column, pixel.column, 1e-6);
+    ck_assert_double_eq_tol(back.row, pixel.row, 1e-6);
+    ck_assert_double_eq_tol(camera_direction(eye, {326.5, 236.5}).z, 1, 1e-12);
+}
+END_TEST
+
 START_TEST(one_ball_anywhere_agrees_with_itself)
 {
     const scene_eyes eyes = scene_default_eyes();
@@ -204,6 +225,7 @@ END_TEST
 int main()
 {
     const TTest *const tests[] = {
+        pixels_count_from_the_middle_of_the_picture,
         one_ball_anywhere_agrees_with_itself,
         different_heights_are_told,
         different_sizes_are_told,
