@@ -95,23 +95,16 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
             "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
 
 
-def run(options: argparse.Namespace) -> list[dict]:
-    """Performs the experiment and returns its phases; what was kept on failure is printed."""
-    phases: list[dict] = []
+def run(options: argparse.Namespace, phases: list[dict]) -> None:
+    """Performs the experiment; each phase that is complete is noted in `phases`."""
     with Processes(options.out) as processes:
         start_programs(processes, options)
         bus = Bus(DEFAULT_URL, processes.check)
         wait_until_ready(bus)
         clock = RealClock(bus, processes.check) if options.realtime else HeldClock(bus)
-        experiment = Experiment(bus, clock, Progress(weights(options)))
-        phases = experiment.phases
-        try:
-            clock.advance(1.0)
-            perform(experiment, bus, clock, options)
-        except (Exception, KeyboardInterrupt) as error:
-            error.phases = phases
-            raise
-    return phases
+        experiment = Experiment(bus, clock, Progress(weights(options)), phases)
+        clock.advance(1.0)
+        perform(experiment, bus, clock, options)
 
 
 def prepare_folder(out: Path) -> None:
@@ -150,33 +143,37 @@ def conclude(options: argparse.Namespace) -> None:
         print(line)
 
 
-def kept(options: argparse.Namespace, error: BaseException) -> str:
-    names = [phase["name"] for phase in getattr(error, "phases", [])]
-    if not (options.out / "run.lcmlog").exists():
+def kept(out: Path, phases: list[dict]) -> str:
+    if not (out / "run.lcmlog").exists():
         return "nothing was kept"
-    done = f"complete: {', '.join(names)}" if names else "no phase was complete"
-    return f"kept {options.out / 'run.lcmlog'} and the programs' logs beside it; {done}"
+    names = ", ".join(phase["name"] for phase in phases)
+    done = f"complete: {names}" if names else "no phase was complete"
+    return f"kept {out / 'run.lcmlog'} and the programs' logs beside it; {done}"
 
 
-def _on_terminate(*_) -> None:
+def _on_signal(*_) -> None:
+    """Once: a second Ctrl-C must not break the cleaning up."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
     raise KeyboardInterrupt
 
 
 def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     options.out = options.out.resolve()
-    signal.signal(signal.SIGTERM, _on_terminate)
-    start = time.monotonic()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _on_signal)
+    start, phases = time.monotonic(), []
     try:
         prepare_folder(options.out)
-        phases = run(options)
+        run(options, phases)
         write_json(options.out / "run.json", describe(options, phases, time.monotonic() - start))
         conclude(options)
-    except KeyboardInterrupt as error:
-        print(f"\ndemo: stopped; {kept(options, error)}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print(f"\ndemo: stopped; {kept(options.out, phases)}", file=sys.stderr)
         return 130
     except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
-        print(f"\ndemo: {error}; {kept(options, error)}", file=sys.stderr)
+        print(f"\ndemo: {error}; {kept(options.out, phases)}", file=sys.stderr)
         return 1
     return 0
 

@@ -22,12 +22,15 @@ class ExperimentError(Exception):
 
 
 class Experiment:
-    def __init__(self, bus: Bus, clock: HeldClock | RealClock, progress: Progress):
+    """`phases` gets one entry for each behaviour that ended."""
+
+    def __init__(self, bus: Bus, clock: HeldClock | RealClock, progress: Progress,
+                 phases: list[dict]):  # fmt: skip
         self._bus = bus
         self._clock = clock
         self._progress = progress
+        self._phases = phases
         self._tool = 0
-        self.phases: list[dict] = []
 
     def babble(self, name: str, count: int, seed: int, learn: bool) -> None:
         """Collects pairs at random configurations, to learn from or to test with."""
@@ -57,7 +60,7 @@ class Experiment:
             raise ExperimentError(f"{name}: reachd refused the request, see reachd.log")
         self._follow(name)
         status = self._bus.status
-        self.phases.append(
+        self._phases.append(
             {
                 "name": name,
                 "tool": self._tool,
@@ -92,10 +95,12 @@ class Experiment:
 
     def _describe(self, status: reach.status_t) -> str:
         text = f"{status.progress} of {status.progress_total}, {status.experts} experts"
+        if status.error_px > 0:  # there is a target
+            return f"{text}, error {status.error_px:.1f} px"
         recent = [s for s in self._bus.samples if s.request_seq == status.request_seq]
         if recent := recent[-RECENT_SAMPLES:]:
             measured = metrics.to_people([s.x[:3] for s in recent])
             predicted = metrics.to_people([s.x_predicted[:3] for s in recent])
             yaw, pitch, disparity = metrics.rmse(predicted, measured)
             return f"{text}, error {yaw:.2f} deg {pitch:.2f} deg {disparity:.1f} px"
-        return f"{text}, error {status.error_px:.1f} px"
+        return text
