@@ -30,7 +30,7 @@ void imle_expert_output(const struct imle *m, int j, double *xhat)
 {
     const double *phibar = m->phibar + (size_t)j * (size_t)m->p;
     const double *xbar = m->xbar + (size_t)j * (size_t)m->D;
-    const double *W = m->W + (size_t)j * (size_t)(m->p * m->D);
+    const double *W = m->W + (size_t)j * (size_t)m->p * (size_t)m->D;
 
     for (int i = 0; i < m->D; i++)
         xhat[i] = xbar[i];
@@ -41,7 +41,7 @@ void imle_expert_output(const struct imle *m, int j, double *xhat)
 
 void imle_expert_slope(struct imle *m, int j)
 {
-    const double *W = m->W + (size_t)j * (size_t)(m->p * m->D);
+    const double *W = m->W + (size_t)j * (size_t)m->p * (size_t)m->D;
 
     memset(m->slope, 0, (size_t)(m->D * m->d) * sizeof *m->slope);
     for (int k = 0; k < m->p; k++)

@@ -223,7 +223,7 @@ static void learn_gate(struct imle *m, int j, double h, double delta, const doub
 /* Slopes and residuals: one step of recursive least squares; m->gain is C^-1 (phi - phibar). */
 static void correct_slopes(struct imle *m, int j, double step, const double *residual)
 {
-    double *W = at(m->W, j, (size_t)(m->p * m->D));
+    double *W = at(m->W, j, (size_t)m->p * (size_t)m->D);
 
     for (int k = 0; k < m->p; k++)
         for (int i = 0; i < m->D; i++)

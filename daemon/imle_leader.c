@@ -8,7 +8,10 @@
 /* Index a comes before b: by key, then by age. */
 static bool before(const struct imle *m, int a, int b)
 {
-    return m->log_h[a] < m->log_h[b] || (m->log_h[a] <= m->log_h[b] && a < b);
+    double key_a = m->log_h[a];
+    double key_b = m->log_h[b];
+
+    return key_a < key_b || (key_a <= key_b && a < b);
 }
 
 /* Heap sort of m->order[0 .. n): no memory, no worst case. */

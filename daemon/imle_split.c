@@ -73,7 +73,7 @@ static void em_iteration(struct imle *m, struct centers *centers)
 static void assign(struct imle *m, struct centers *centers)
 {
     int members[LEARNER_MAX_SOLUTIONS] = {0};
-    int renamed[LEARNER_MAX_SOLUTIONS];
+    int renamed[LEARNER_MAX_SOLUTIONS] = {0};
     int n = 0;
 
     for (int a = 0; a < m->n_answers; a++) {
