@@ -11,6 +11,7 @@ from .messages import bot_core, reach
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 RESEND_SECONDS = 2.0  # a request that nobody looked at is sent again, which changes nothing
 GIVE_UP_SECONDS = 30.0
+QUEUE = 200  # messages of a channel that may wait; a full queue drops the newest
 
 
 class NoAnswerError(Exception):
@@ -39,7 +40,9 @@ class Bus:
         self._listen("REACH_HELLO", reach.hello_t, self._on_hello)
 
     def _listen(self, channel: str, kind, take: Callable):
-        return self._lcm.subscribe(channel, lambda _, data: take(kind.decode(data)))
+        subscription = self._lcm.subscribe(channel, lambda _, data: take(kind.decode(data)))
+        subscription.set_queue_capacity(QUEUE)
+        return subscription
 
     def _on_hello(self, hello) -> None:
         if hello.answer:
@@ -104,15 +107,21 @@ class Bus:
 
     def run_until(self, until: int) -> None:
         """Lets a held simulator run; returns when the daemon has ticked at `until`; us."""
-        self._sim_seq += 1
-        kind = reach.sim_request_t.RUN_UNTIL
-        request = _fill(reach.sim_request_t(), kind, self._sim_seq, {"until": until})
-        self.wait(
-            lambda: self._time() >= until,
-            "reachd or simrobot",
-            lambda: self._lcm.publish("SIM_REQUEST", request.encode()),
-            self._time,
-        )
+        kind, first = reach.sim_request_t.RUN_UNTIL, self._sim_seq + 1
+
+        def send() -> None:
+            self._sim_seq += 1
+            request = _fill(reach.sim_request_t(), kind, self._sim_seq, {"until": until})
+            self._lcm.publish("SIM_REQUEST", request.encode())
+
+        self.wait(lambda: self._time() >= until or self._held_at(until, first),
+                  "reachd or simrobot", send, self._time)  # fmt: skip
+
+    def _held_at(self, until: int, first_seq: int) -> bool:
+        """The status of that tick was lost on its way here, but the simulator, asked once more,
+        stands there: it goes on only when the daemon has answered."""
+        truth = self.truth
+        return truth is not None and truth.request_seq > first_seq and truth.utime >= until
 
     def _time(self) -> int:
         return self.status.utime if self.status else -1

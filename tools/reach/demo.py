@@ -2,26 +2,23 @@
 
 import argparse
 import json
-import os
 import shutil
 import signal
 import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, report, summary
-from .bus import DEFAULT_URL, Bus, NoAnswerError
+from . import metrics, pictures, programs, report, summary
+from .bus import Bus, NoAnswerError
 from .clock import HeldClock, RealClock
 from .experiment import Experiment, ExperimentError
-from .messages import ROOT, reach
+from .messages import ROOT
 from .processes import ProcessDiedError, Processes
 from .progress import Progress
 from .record import read_log
 
 TOOL = 1  # the simulator's first tool, the rubber tube
-STAR_PERIOD = 4.0  # s for each target
-BABBLE_SECONDS = 3.5  # robot time of a sample, about; for the time left
-LOG_ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
+BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
 
 
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
@@ -31,6 +28,7 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     add("--out", type=Path, default=ROOT / "out/demo", help="folder of the results")
     add("--samples", type=_count, default=150, help="training samples with each; default 150")
     add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
+    add("--period", type=float, default=4.0, help="seconds for each target; default %(default)g")
     add("--experts", choices=("polynomial", "linear"), default="polynomial",
         help="what each expert of the model is; default %(default)s")  # fmt: skip
     add("--realtime", action="store_true", help="at the wall's pace instead of as fast as it can")
@@ -45,31 +43,6 @@ def _count(text: str) -> int:
     return value
 
 
-def start_programs(processes: Processes, options: argparse.Namespace) -> None:
-    binaries = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
-    out, url = options.out, ["--url", DEFAULT_URL]
-    channels = ".*" if options.keep_images else LOG_ALL_BUT_IMAGES
-    clock = ["--realtime"] if options.realtime else ["--lockstep", "--hold"]
-    daemon_clock = ["--no-rt"] if options.realtime else ["--lockstep"]
-    start = processes.start
-    start(
-        "logger",
-        ["lcm-logger", "-q", "-f", f"--lcm-url={DEFAULT_URL}", "-c", channels, out / "run.lcmlog"],
-    )
-    start("reachd", [binaries / "reachd", "--config", ROOT / "etc/kobian.yaml", *url, *daemon_clock,
-                     "--set", f"learner.experts={options.experts}"])  # fmt: skip
-    start("vision", [binaries / "vision", "--config", ROOT / "etc/vision-kobian.yaml", *url])
-    start("simrobot", [binaries / "simrobot", "--config", ROOT / "etc/simrobot-kobian.yaml", *url,
-                       *clock, "--seed", str(options.seed)])  # fmt: skip
-
-
-def wait_until_ready(bus: Bus) -> None:
-    hello = reach.hello_t
-    bus.wait_for_role(hello.DAEMON, "reachd")
-    bus.wait_for_role(hello.VISION, "vision")
-    bus.wait_for_role(hello.SIMULATOR, "simrobot")
-
-
 def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace) -> None:
     """The protocol. Seeds of babbling differ between learning and testing, and between runs."""
     samples, tests, base = options.samples, options.tests, options.seed * 10
@@ -81,16 +54,16 @@ def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace
     experiment.babble("learn_tool", samples, base + 3, learn=True)
     experiment.babble("test_tool", tests, base + 4, learn=False)
     pictures.take(bus, clock, options.out, "tool")
-    experiment.star("star_tool", targets, STAR_PERIOD)
+    experiment.star("star_tool", targets, options.period)
     experiment.take_tool(0)
-    experiment.star("star_hand", targets, STAR_PERIOD)
+    experiment.star("star_hand", targets, options.period)
     # The same configurations as test_hand: has learning the tool cost the hand anything?
     experiment.babble("retest_hand", tests, base + 2, learn=False)
 
 
 def weights(options: argparse.Namespace) -> dict[str, float]:
     learn, test = options.samples * BABBLE_SECONDS, options.tests * BABBLE_SECONDS
-    star = len(metrics.star_targets()) * STAR_PERIOD
+    star = len(metrics.star_targets()) * options.period
     return {"learn_hand": learn, "test_hand": test, "learn_tool": learn, "test_tool": test,
             "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
 
@@ -98,9 +71,12 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
     with Processes(options.out) as processes:
-        start_programs(processes, options)
-        bus = Bus(DEFAULT_URL, processes.check)
-        wait_until_ready(bus)
+        programs.start(
+            processes, options.out, seed=options.seed, experts=options.experts,
+            realtime=options.realtime, keep_images=options.keep_images,
+        )  # fmt: skip
+        bus = Bus(programs.LISTENER_URL, processes.check)
+        programs.wait_until_ready(bus)
         clock = RealClock(bus, processes.check) if options.realtime else HeldClock(bus)
         experiment = Experiment(bus, clock, Progress(weights(options)), phases)
         clock.advance(1.0)
@@ -139,6 +115,9 @@ def conclude(options: argparse.Namespace) -> None:
     result = summary.summarise(record, description)
     write_json(out / "summary.json", result)
     report.write(out, record, description, result)
+    if lost := result["wall"]["log_lost"]:
+        print(f"demo: the log lacks {lost} ticks: this machine was too busy to write them, and the"
+              " summary may differ from that of another run", file=sys.stderr)  # fmt: skip
     for line in report.five_lines(out, record, result):
         print(line)
 

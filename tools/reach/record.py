@@ -18,6 +18,11 @@ class Record:
     def __getitem__(self, channel: str) -> np.ndarray:
         return self._channels[channel]
 
+    def lost(self, channel: str = "REACH_STATUS") -> int:
+        """Messages that the log should hold but does not, by their sequence numbers."""
+        numbers = np.unique(self._channels[channel]["seq"])
+        return int(numbers[-1] - numbers[0] + 1 - len(numbers)) if len(numbers) else 0
+
     def between(self, channel: str, start: int, end: int) -> np.ndarray:
         """Rows with start <= utime <= end; us."""
         rows = self._channels[channel]

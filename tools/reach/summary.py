@@ -110,6 +110,7 @@ def wall(record: Record, run: dict) -> dict:
         "real_time_factor": simulated / run["wall_seconds"],
         "tick_us": metrics.quantiles(status["compute_us"]),
         "vision_us": metrics.quantiles(record["MARKER"]["compute_us"]),
+        "log_lost": record.lost(),
     }
 
 
