@@ -87,7 +87,7 @@ static const char *contradiction(const vision_config &config)
 int config_load(vision_config *config, const char *path, const char *const *overrides,
                 int n_overrides, char *error, size_t error_size)
 {
-    if (options_load(table, config, path, overrides, n_overrides, error, error_size))
+    if (options_load(table, config, &path, path ? 1 : 0, overrides, n_overrides, error, error_size))
         return -1;
     const char *wrong = contradiction(*config);
     if (wrong)

@@ -1,5 +1,6 @@
 #include <lcm/lcm.h>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <reach_hello_t.h>
 #include <reach_marker_t.h>
 
@@ -194,6 +195,8 @@ int main(int argc, char **argv)
         log_error("%s", error);
         return 1;
     }
+    /* What OpenCV's back ends have to say of a missing file is said by one line of ours. */
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
     if (given.bench)
         return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;

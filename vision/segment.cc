@@ -116,8 +116,10 @@ static double measure_disc(const segmenter &work, const image_view &image, const
     int members = 0;
 
     for (int i = 0; i < fill_grid * fill_grid; i++) {
-        const double x = 2.0 * (i % fill_grid) / (fill_grid - 1) - 1;
-        const double y = 2.0 * (i / fill_grid) / (fill_grid - 1) - 1;
+        const int across = i % fill_grid;
+        const int down = i / fill_grid;
+        const double x = 2.0 * across / (fill_grid - 1) - 1;
+        const double y = 2.0 * down / (fill_grid - 1) - 1;
         const int column = static_cast<int>(found.pixel.column + x * found.radius * fill_radius);
         const int row = static_cast<int>(found.pixel.row + y * found.radius * fill_radius);
         if (x * x + y * y > 1 || column < 0 || row < 0 || column >= image.width ||

@@ -1,4 +1,3 @@
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
@@ -36,8 +35,6 @@ public:
 
     bool open(const char *left, const char *right, int backend, char *error, size_t error_size)
     {
-        /* What OpenCV's back ends have to say is replaced by one line of ours. */
-        cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         return open_one(&left_, left, backend, error, error_size) &&
                open_one(&right_, right, backend, error, error_size);
     }

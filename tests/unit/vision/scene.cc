@@ -186,7 +186,9 @@ static void pixel_colour(const drawing &draw, int column, int row, double *colou
     }
     colour[0] = colour[1] = colour[2] = 0;
     for (int i = 0; i < n * n; i++) {
-        const pixel_point at = {column + (i % n + 0.5) / n - 0.5, row + (i / n + 0.5) / n - 0.5};
+        const int across = i % n;
+        const int down = i / n;
+        const pixel_point at = {column + (across + 0.5) / n - 0.5, row + (down + 0.5) / n - 0.5};
         double one[3];
         look(draw, at, column, row, one);
         for (int c = 0; c < 3; c++)

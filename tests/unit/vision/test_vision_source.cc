@@ -1,4 +1,5 @@
 /* Pairs from video files, and what is said when they are not there. */
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -125,5 +126,6 @@ int main()
         the_bus_gets_room_for_pictures,
     };
 
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return SUITE_RUN("vision source", tests);
 }
