@@ -163,7 +163,7 @@ bool config_load(Config *config, const char *path, const char *const *overrides,
 {
     char line[1024] = "";
 
-    if (options_load(table(), config, path, overrides, n_overrides, line, sizeof line)) {
+    if (options_load(table(), config, &path, 1, overrides, n_overrides, line, sizeof line)) {
         *error = line;
         return false;
     }

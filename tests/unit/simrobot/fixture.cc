@@ -8,10 +8,15 @@
 namespace fixture
 {
 
-sim::Config config(std::initializer_list<const char *> overrides)
+std::string configuration_path()
 {
     const char *source = getenv("REACH_SOURCE_DIR");
-    std::string path = std::string(source ? source : ".") + "/etc/simrobot-kobian.yaml";
+    return std::string(source ? source : ".") + "/etc/simrobot-kobian.yaml";
+}
+
+sim::Config config(std::initializer_list<const char *> overrides)
+{
+    std::string path = configuration_path();
     std::vector<const char *> list(overrides);
     sim::Config result;
     std::string error;

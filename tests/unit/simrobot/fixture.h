@@ -16,6 +16,9 @@ namespace fixture
 
 inline constexpr double degree = 3.14159265358979323846 / 180;
 
+/* Where the shipped configuration is; ctest sets REACH_SOURCE_DIR. */
+std::string configuration_path();
+
 /* The shipped Kobian with these overrides; ends the test on an error. */
 sim::Config config(std::initializer_list<const char *> overrides = {});
 sim::Rig rig(const sim::Config &config);
