@@ -246,8 +246,9 @@ static int apply_overrides(struct loading *loading, const char *const *overrides
     return 0;
 }
 
-int options_load(const struct option_row *table, void *target, const char *path,
-                 const char *const *overrides, int n_overrides, char *error, size_t error_size)
+int options_load(const struct option_row *table, void *target, const char *const *paths,
+                 int n_paths, const char *const *overrides, int n_overrides, char *error,
+                 size_t error_size)
 {
     struct loading loading = {.table = table, .target = target};
     const struct option_row *row;
@@ -259,15 +260,17 @@ int options_load(const struct option_row *table, void *target, const char *path,
         }
     if (apply_defaults(&loading, error, error_size))
         return -1;
-    memset(loading.seen_in_file, 0, sizeof loading.seen_in_file);
-    if (path && apply_file(&loading, path, error, error_size))
-        return -1;
+    for (int i = 0; i < n_paths; i++) {
+        memset(loading.seen_in_file, 0, sizeof loading.seen_in_file);
+        if (apply_file(&loading, paths[i], error, error_size))
+            return -1;
+    }
     if (apply_overrides(&loading, overrides, n_overrides, error, error_size))
         return -1;
     for (row = table; row->name; row++)
         if (!loading.given[row - table]) {
-            snprintf(error, error_size, "%s: %s must be given (%s)", path ? path : "options",
-                     row->name, row->help);
+            snprintf(error, error_size, "%s: %s must be given (%s)",
+                     n_paths > 0 ? paths[0] : "options", row->name, row->help);
             return -1;
         }
     return 0;

@@ -57,12 +57,13 @@ struct option_row {
         0                                                                                          \
     }
 
-/* Fills `target` with the table's defaults, then with the YAML file `path` (NULL: no file), then
- * with `n_overrides` texts "name=value". The struct is validated whole: on failure it is
- * unspecified and must not be used.
- *   returns 0, or -1 with one line in `error` ("etc/kobian.yaml:12: reach.gain: ..."). */
-int options_load(const struct option_row *table, void *target, const char *path,
-                 const char *const *overrides, int n_overrides, char *error, size_t error_size);
+/* Fills `target` with the table's defaults, then with the YAML files `paths`, a later one over an
+ * earlier one, then with `n_overrides` texts "name=value". The struct is validated whole: on
+ * failure it is unspecified and must not be used. returns 0, or -1 with one line in `error`
+ * ("etc/kobian.yaml:12: reach.gain: ..."). */
+int options_load(const struct option_row *table, void *target, const char *const *paths,
+                 int n_paths, const char *const *overrides, int n_overrides, char *error,
+                 size_t error_size);
 
 /* Prints the table as a reference: name, unit, default, range, help. */
 void options_print(const struct option_row *table, FILE *out);

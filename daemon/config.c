@@ -107,7 +107,7 @@ static const struct option_row table[] = {
     LIST("learner.reference", learner_reference, "deg", NULL, -360, 360,
          "middle of the joints' range, where polynomials are centred"),
     NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100, "unit of the polynomials"),
-    NUMBER("learner.alpha", learner_alpha, NULL, "0.999", 0.5, 1, "forgetting exponent, 1 = none"),
+    NUMBER("learner.alpha", learner_alpha, NULL, "0.999", 0.9, 1, "forgetting exponent, 1 = none"),
     NUMBER("learner.ridge", learner_ridge, NULL, "0.001", 1e-12, 1e6, "w_Lambda"),
     NUMBER("learner.hyper_sigma", learner_hyper_sigma, NULL, "8", 0, HUGE_VAL, "w_sigma"),
     NUMBER("learner.hyper_psi", learner_hyper_psi, NULL, ".inf", 0, HUGE_VAL, "w_psi"),
@@ -234,13 +234,13 @@ static int check_learner(const struct config *config, char *error, size_t error_
     return -1;
 }
 
-int config_load(struct config *config, const char *path, const char *const *overrides,
-                int n_overrides, char *error, size_t error_size)
+int config_load(struct config *config, const char *const *paths, int n_paths,
+                const char *const *overrides, int n_overrides, char *error, size_t error_size)
 {
     char reason[320];
 
     memset(config, 0, sizeof *config);
-    if (options_load(table, config, path, overrides, n_overrides, error, error_size))
+    if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
         return -1;
     if (check_range("arm", &config->arm_min, &config->arm_max, reason, sizeof reason) ||
         check_range("head", &config->head_min, &config->head_max, reason, sizeof reason) ||
@@ -248,7 +248,7 @@ int config_load(struct config *config, const char *path, const char *const *over
         check_sizes(config, reason, sizeof reason) || check_babble(config, reason, sizeof reason) ||
         check_motion(config, reason, sizeof reason) ||
         check_learner(config, reason, sizeof reason)) {
-        snprintf(error, error_size, "%s: %s", path ? path : "options", reason);
+        snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
         return -1;
     }
     return 0;

@@ -60,10 +60,11 @@ struct config {
     char model_directory[OPTION_MAX_TEXT];
 };
 
-/* Reads, checks each option and checks them against each other.
+/* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks
+ * each option and checks them against each other.
  *   returns 0, or -1 with one line in `error`. */
-int config_load(struct config *config, const char *path, const char *const *overrides,
-                int n_overrides, char *error, size_t error_size);
+int config_load(struct config *config, const char *const *paths, int n_paths,
+                const char *const *overrides, int n_overrides, char *error, size_t error_size);
 
 /* The table, for --help-options. */
 const struct option_row *config_table(void);

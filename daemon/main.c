@@ -19,6 +19,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#define MAX_CONFIGS 8
 #define MAX_OVERRIDES 64
 
 static const int claim_ms = 300;                /* time for another daemon to answer */
@@ -26,7 +27,8 @@ static const int house_period_ms = 20;          /* of housekeeping */
 static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
 
 struct arguments {
-    const char *config;
+    const char *configs[MAX_CONFIGS];
+    int n_configs;
     const char *url;
     const char *overrides[MAX_OVERRIDES];
     int n_overrides;
@@ -48,7 +50,8 @@ struct reachd {
 static const char usage[] =
     "usage: reachd --config FILE [options]\n"
     "Learns how the robot's arm moves, with whatever tool it holds, and reaches with it.\n\n"
-    "  -c, --config FILE     YAML configuration, such as etc/kobian.yaml\n"
+    "  -c, --config FILE     YAML configuration, such as etc/kobian.yaml; given again, the\n"
+    "                        later file overrides the earlier one\n"
     "  -s, --set NAME=VALUE  override one option of it (may be repeated)\n"
     "  -u, --url URL         LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")\n"
     "  -l, --lockstep        the simulator's clock, not the real one\n"
@@ -72,7 +75,9 @@ static int take_option(struct arguments *arguments, int option)
 {
     switch (option) {
     case 'c':
-        arguments->config = optarg;
+        if (arguments->n_configs == MAX_CONFIGS)
+            return wrong_usage("too many --config");
+        arguments->configs[arguments->n_configs++] = optarg;
         return -1;
     case 's':
         if (arguments->n_overrides == MAX_OVERRIDES)
@@ -129,7 +134,7 @@ static int parse(struct arguments *arguments, int argc, char **argv)
     }
     if (optind < argc)
         return wrong_usage("unexpected argument");
-    if (!arguments->config)
+    if (arguments->n_configs == 0)
         return wrong_usage("--config is missing");
     return -1;
 }
@@ -270,8 +275,9 @@ int main(int argc, char **argv)
     if (status >= 0)
         return status;
     log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
-    status = config_load(&reachd.config, reachd.arguments.config, reachd.arguments.overrides,
-                         reachd.arguments.n_overrides, error, sizeof error) ||
+    status = config_load(&reachd.config, reachd.arguments.configs, reachd.arguments.n_configs,
+                         reachd.arguments.overrides, reachd.arguments.n_overrides, error,
+                         sizeof error) ||
              check_model_directory(&reachd.config, error, sizeof error) ||
              run(&reachd, error, sizeof error);
     if (status)

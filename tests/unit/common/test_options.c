@@ -49,7 +49,8 @@ static int load(const struct option_row *rows, struct settings *settings, const 
     ck_assert_int_ge(descriptor, 0);
     ck_assert_int_eq(write(descriptor, yaml, (size_t)length), length);
     close(descriptor);
-    result = options_load(rows, settings, path, &override, override ? 1 : 0, error, sizeof error);
+    result = options_load(rows, settings, (const char *[]){path}, 1, &override, override ? 1 : 0,
+                          error, sizeof error);
     unlink(path);
     return result;
 }
@@ -70,7 +71,7 @@ START_TEST(defaults_are_stored)
 {
     struct settings settings;
 
-    ck_assert_int_eq(options_load(table, &settings, NULL, NULL, 0, error, sizeof error), 0);
+    ck_assert_int_eq(options_load(table, &settings, NULL, 0, NULL, 0, error, sizeof error), 0);
     ck_assert(!settings.fast);
     ck_assert_int_eq(settings.count, 3);
     ck_assert_double_eq(settings.gain, 2.0);
@@ -165,12 +166,13 @@ END_TEST
 START_TEST(a_missing_file_and_a_missing_value_are_told)
 {
     static const struct option_row needed[] = {{"arm.gain", OPTION_NUMBER,
-                                            offsetof(struct settings, gain), NULL, NULL, 0, 0,
-                                            "a gain", NULL},
-                                           OPTION_END};
+                                                offsetof(struct settings, gain), NULL, NULL, 0, 0,
+                                                "a gain", NULL},
+                                               OPTION_END};
     struct settings settings;
 
-    ck_assert_int_eq(options_load(table, &settings, "/no/such.yaml", NULL, 0, error, sizeof error),
+    ck_assert_int_eq(options_load(table, &settings, (const char *[]){"/no/such.yaml"}, 1, NULL, 0,
+                                  error, sizeof error),
                      -1);
     ck_assert_ptr_nonnull(strstr(error, "/no/such.yaml: No such file"));
     ck_assert_int_eq(load(needed, &settings, "", NULL), -1);

@@ -5,17 +5,35 @@
 #include <stdlib.h>
 #include <time.h>
 
-struct config fixture_config(const char *const *overrides, int n_overrides)
+static struct config load(const char *const *names, int n_names, const char *const *overrides,
+                          int n_overrides)
 {
     const char *source = getenv("REACH_SOURCE_DIR");
+    char path[2][512];
+    const char *paths[] = {path[0], path[1]};
     struct config config;
-    char path[512];
     char error[512];
 
-    snprintf(path, sizeof path, "%s/etc/kobian.yaml", source ? source : ".");
-    ck_assert_msg(config_load(&config, path, overrides, n_overrides, error, sizeof error) == 0,
-                  "%s", error);
+    for (int i = 0; i < n_names; i++)
+        snprintf(path[i], sizeof path[i], "%s/etc/%s", source ? source : ".", names[i]);
+    ck_assert_msg(
+        config_load(&config, paths, n_names, overrides, n_overrides, error, sizeof error) == 0,
+        "%s", error);
     return config;
+}
+
+struct config fixture_config(const char *const *overrides, int n_overrides)
+{
+    const char *names[] = {"kobian.yaml"};
+
+    return load(names, 1, overrides, n_overrides);
+}
+
+struct config fixture_linear_config(void)
+{
+    const char *names[] = {"kobian.yaml", "learner-linear.yaml"};
+
+    return load(names, 2, NULL, 0);
 }
 
 struct random_state fixture_random(const char *test)

@@ -23,17 +23,22 @@ struct world {
 
 static struct world world;
 
-static void begin(const char *const *overrides, int n_overrides)
+static void begin_with(struct config config)
 {
     char error[256];
 
     memset(&world, 0, sizeof world);
-    world.config = fixture_config(overrides, n_overrides);
+    world.config = config;
     world.arena = arena_create(tick_memory(&world.config));
     world.tick = tick_create(&world.config, world.arena, error, sizeof error);
     ck_assert_msg(world.tick != NULL, "%s", error);
     fake_robot_init(&world.robot, &world.config);
     world.robot.noise = 0.3;
+}
+
+static void begin(void)
+{
+    begin_with(fixture_config(NULL, 0));
 }
 
 static void end(void)
@@ -112,7 +117,7 @@ START_TEST(the_head_fixates)
 {
     double image[3];
 
-    begin(NULL, 0);
+    begin();
     world.robot.q[4] = -0.2;
     step();
     ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 1, .seed = 1});
@@ -125,7 +130,7 @@ END_TEST
 
 START_TEST(the_head_searches_what_is_out_of_view)
 {
-    begin(NULL, 0);
+    begin();
     world.robot.half_width = 100;
     world.robot.half_height = 80;
     world.robot.q[4] = 0.6; /* looks far to the left of it */
@@ -164,7 +169,7 @@ static void star(double bound)
 
 START_TEST(it_learns_two_tools_and_reaches_with_both)
 {
-    begin(NULL, 0);
+    begin();
     babble(120, true);
     world.robot.tool = 0.35;
     babble(120, true);
@@ -179,9 +184,7 @@ END_TEST
 
 START_TEST(linear_experts_do_too)
 {
-    const char *overrides[] = {"learner.experts=linear"};
-
-    begin(overrides, 1);
+    begin_with(fixture_linear_config());
     babble(120, true);
     world.robot.tool = 0.35;
     babble(120, true);
@@ -194,7 +197,7 @@ END_TEST
 
 START_TEST(a_frozen_model_does_not_change)
 {
-    begin(NULL, 0);
+    begin();
     babble(30, true);
     ck_assert_int_eq(world.outputs.status.samples, 30);
     babble(5, false);
@@ -211,7 +214,7 @@ START_TEST(the_arm_follows_the_head)
     const double u[] = {50, -50, -50, 50}, v[] = {0, 50, -50, 0};
     double worst = 0, head[2];
 
-    begin(NULL, 0);
+    begin();
     babble(120, true);
     memcpy(request.u, u, sizeof u);
     memcpy(request.v, v, sizeof v);
@@ -242,7 +245,7 @@ START_TEST(an_arm_whose_marker_is_hidden_holds)
                                .disparity = {20},
                                .count = 1};
 
-    begin(NULL, 0);
+    begin();
     babble(60, true);
     ask(request);
     while (world.outputs.status.phase != REACH_STATUS_T_TRACK)

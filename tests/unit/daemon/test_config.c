@@ -10,10 +10,11 @@ static void refuses(const char *override, const char *reason)
 {
     const char *overrides[] = {override};
     struct config config;
-    char path[512], error[512] = "";
+    char name[512], error[512] = "";
+    const char *path = name;
 
-    snprintf(path, sizeof path, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
-    ck_assert_int_eq(config_load(&config, path, overrides, 1, error, sizeof error), -1);
+    snprintf(name, sizeof name, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
+    ck_assert_int_eq(config_load(&config, &path, 1, overrides, 1, error, sizeof error), -1);
     ck_assert_msg(strstr(error, reason) != NULL, "'%s' does not say '%s'", error, reason);
 }
 
@@ -30,6 +31,39 @@ START_TEST(the_shipped_configuration_is_the_paper_s_robot)
     ck_assert_double_eq_tol(pitch.min, -10 * M_PI / 180, 1e-12);
     ck_assert_double_eq(pitch.velocity, config.head_velocity);
     ck_assert_double_eq(elbow.safety_velocity, config.safety_arm_velocity);
+}
+END_TEST
+
+START_TEST(the_shipped_configuration_names_every_option)
+{
+    const struct option_row *row = config_table();
+    char path[512], line[256];
+    int leaves = 0, rows = 0;
+    FILE *file;
+
+    snprintf(path, sizeof path, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
+    file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    /* Unknown and doubled names are refused, so as many leaves as rows means all of them. */
+    while (fgets(line, sizeof line, file)) {
+        const char *colon = strchr(line, ':');
+        if (line[0] != '#' && colon && colon[1] == ' ' && colon[strspn(colon + 1, " ") + 1] != '#')
+            leaves++;
+    }
+    fclose(file);
+    for (; row->name; row++)
+        rows++;
+    ck_assert_int_eq(leaves, rows);
+}
+END_TEST
+
+START_TEST(the_linear_learner_s_file_fits)
+{
+    struct config config = fixture_linear_config();
+
+    ck_assert_int_eq(config.learner_features, LEARNER_LINEAR);
+    ck_assert_double_eq(config.learner_noise_disparity, 6);
+    ck_assert_double_eq(config.learner_alpha, 0.999);
 }
 END_TEST
 
@@ -65,7 +99,8 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
-                                  the_learner_gets_variances,
+                                  the_shipped_configuration_names_every_option,
+                                  the_linear_learner_s_file_fits, the_learner_gets_variances,
                                   what_does_not_fit_together_is_refused};
 
     return SUITE_RUN("config", tests);
