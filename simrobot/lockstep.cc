@@ -50,20 +50,14 @@ private:
             failed_ = true;
     }
 
-    bool standing()
-    {
-        const ClockControl &control = session_.control();
-        return control.paused || session_.now() > control.until;
-    }
-
     /* Carries out requests; returns when the next state may go out, or false at the end. */
     bool wait_for_leave()
     {
         handle(0);
-        session_.handle_requests(standing());
-        while (!over() && standing()) {
+        session_.handle_requests();
+        while (!over() && session_.standing()) {
             handle(longest_wait_ms);
-            session_.handle_requests(true);
+            session_.handle_requests();
         }
         return !over();
     }

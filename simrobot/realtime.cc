@@ -36,7 +36,7 @@ public:
         start_grid();
         while (!failed_ && !stopping_() && !session_.control().quit) {
             receive(0);
-            session_.handle_requests(session_.control().paused);
+            session_.handle_requests();
             if (session_.control().paused) {
                 stand();
                 continue;
@@ -63,7 +63,7 @@ private:
     void stand()
     {
         receive(100);
-        session_.handle_requests(true);
+        session_.handle_requests();
         if (!session_.control().paused)
             start_grid();
     }

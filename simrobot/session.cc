@@ -65,14 +65,15 @@ void Session::carry_out(const reach_sim_request_t &request)
     request_seq_ = request.seq;
 }
 
-void Session::handle_requests(bool standing)
+void Session::handle_requests()
 {
     reach_sim_request_t request;
     int64_t before = request_seq_;
+    bool stood = standing();
 
     while (bus_.take_request(&request))
         carry_out(request);
-    if (standing && request_seq_ != before)
+    if ((stood || standing()) && request_seq_ != before)
         publish_truth(false, state_.seq);
 }
 

@@ -44,8 +44,15 @@ public:
         start_ = utime - simulation_.steps() * step_us;
     }
 
-    /* Carries out all requests that wait; a clock that stands acknowledges at once. */
-    void handle_requests(bool standing);
+    /* Whether no state may go out now: paused, or as far as the experimenter allowed. */
+    bool standing() const
+    {
+        return control_.paused || now() > control_.until;
+    }
+
+    /* Carries out all requests that wait. A clock that stood or now stands acknowledges at once;
+     * else the next state's truth does. */
+    void handle_requests();
 
     const ClockControl &control() const
     {
