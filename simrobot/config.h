@@ -59,6 +59,9 @@ struct Config {
     int image_format; /* ImageFormat */
     int jpeg_quality;
     double sensor_noise;
+    double eye_tremble;
+    double eye_creep;
+    double eye_creep_period;
     double light_drift;
     double light_period;
     double light_flicker;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "simrobot/config.h"
+#include "simrobot/wander.h"
 
 namespace sim
 {
@@ -27,14 +28,10 @@ public:
     LightState at(double seconds, int64_t exposure, double brightness) const;
 
 private:
-    static constexpr int quantities = 5, waves = 3;
-
-    double wander(int quantity, double seconds) const;
-
     double drift_, flicker_;
     uint64_t seed_;
-    double frequency_[quantities][waves]; /* rad/s */
-    double phase_[quantities][waves];
+    Random random_; /* before what draws from it */
+    Wander azimuth_, height_, strength_, warmth_, fill_;
 };
 
 } // namespace sim

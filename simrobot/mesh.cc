@@ -163,19 +163,15 @@ void mesh_append(const Shape &shape, Corners *corners)
 }
 
 void mesh_append_rectangle(const Eigen::Vector3f &corner, const Eigen::Vector3f &edge_u,
-                           const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour, int cells,
+                           const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour,
                            float repeat, Corners *corners)
 {
-    const int around[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    const float around[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     Eigen::Vector3f normal = edge_u.cross(edge_v).normalized();
 
-    for (int i = 0; i < cells * cells; i++)
-        for (const int *step : around) {
-            float u = static_cast<float>(i % cells + step[0]) / static_cast<float>(cells);
-            float v = static_cast<float>(i / cells + step[1]) / static_cast<float>(cells);
-            corners->push_back(
-                {corner + u * edge_u + v * edge_v, normal, colour, Eigen::Vector2f(u, v) * repeat});
-        }
+    for (const float *at : around)
+        corners->push_back({corner + at[0] * edge_u + at[1] * edge_v, normal, colour,
+                            Eigen::Vector2f(at[0], at[1]) * repeat});
 }
 
 void mesh_show(const Corners &corners, const LightState &light, const View &view,

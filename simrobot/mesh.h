@@ -31,10 +31,10 @@ using Corners = std::vector<Corner>; /* three make a triangle */
 /* Appends a shape's triangles. */
 void mesh_append(const Shape &shape, Corners *corners);
 
-/* Appends a flat rectangle of `cells` x `cells` pieces: `corner` and the edges from it; the normal
- * is edge_u x edge_v. The texture repeats `repeat` times over it. */
+/* Appends a flat rectangle: `corner` and the edges from it; the normal is edge_u x edge_v. The
+ * texture repeats `repeat` times over it. */
 void mesh_append_rectangle(const Eigen::Vector3f &corner, const Eigen::Vector3f &edge_u,
-                           const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour, int cells,
+                           const Eigen::Vector3f &edge_v, const Eigen::Vector3f &colour,
                            float repeat, Corners *corners);
 
 /* What an eye can see: its place, and the planes through it that bound the image, normals inwards.

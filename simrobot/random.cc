@@ -20,9 +20,11 @@ uint64_t splitmix(uint64_t *x)
 
 } // namespace
 
-Random::Random(uint64_t seed, uint64_t stream)
+Random::Random(uint64_t seed, uint64_t stream, int64_t index)
 {
     uint64_t x = seed ^ (stream * 0xd1342543de82ef95u);
+
+    x = splitmix(&x) ^ (static_cast<uint64_t>(index) * 0xaf251af3b0f025b5u);
     for (uint64_t &word : state_)
         word = splitmix(&x);
 }

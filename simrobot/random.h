@@ -10,8 +10,9 @@ namespace sim
 class Random
 {
 public:
-    /* Streams of one seed do not overlap in practice: one a purpose (encoders, light, ...). */
-    Random(uint64_t seed, uint64_t stream);
+    /* Streams of one seed do not overlap in practice: one a purpose (encoders, light, ...). Within
+     * a stream, each `index` (the number of an image, say) begins anew elsewhere. */
+    Random(uint64_t seed, uint64_t stream, int64_t index = 0);
 
     uint64_t bits();
 

@@ -95,7 +95,7 @@ Corners scene_table()
 {
     Corners corners;
     mesh_append_rectangle({0.25f, -1.2f, table_height}, {1.35f, 0, 0}, {0, 2.4f, 0},
-                          {1.0f, 1.0f, 1.0f}, 8, 3, &corners);
+                          {1.0f, 1.0f, 1.0f}, 3, &corners);
     return corners;
 }
 
@@ -105,14 +105,10 @@ Corners scene_walls()
     const Eigen::Vector3f paint(0.95f, 0.95f, 0.95f), floor(0.45f, 0.43f, 0.42f);
     const float height = 2.6f, bottom = -1.2f;
 
-    mesh_append_rectangle({2.6f, 3.0f, bottom}, {0, -6.0f, 0}, {0, 0, height}, paint, 8, 5,
-                          &corners);
-    mesh_append_rectangle({-1.0f, 3.0f, bottom}, {3.6f, 0, 0}, {0, 0, height}, paint, 6, 4,
-                          &corners);
-    mesh_append_rectangle({2.6f, -3.0f, bottom}, {-3.6f, 0, 0}, {0, 0, height}, paint, 6, 4,
-                          &corners);
-    mesh_append_rectangle({-1.0f, -3.0f, bottom}, {3.6f, 0, 0}, {0, 6.0f, 0}, floor, 8, 6,
-                          &corners);
+    mesh_append_rectangle({2.6f, 3.0f, bottom}, {0, -6.0f, 0}, {0, 0, height}, paint, 5, &corners);
+    mesh_append_rectangle({-1.0f, 3.0f, bottom}, {3.6f, 0, 0}, {0, 0, height}, paint, 4, &corners);
+    mesh_append_rectangle({2.6f, -3.0f, bottom}, {-3.6f, 0, 0}, {0, 0, height}, paint, 4, &corners);
+    mesh_append_rectangle({-1.0f, -3.0f, bottom}, {3.6f, 0, 0}, {0, 6.0f, 0}, floor, 6, &corners);
     return corners;
 }
 

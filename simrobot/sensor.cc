@@ -37,7 +37,7 @@ void Sensor::expose(int64_t number, std::vector<uint8_t> *pixels) const
 {
     if (noise_ <= 0)
         return;
-    Random random(seed_ + static_cast<uint64_t>(number), 5);
+    Random random(seed_, 5, number);
     for (size_t done = 0; done < pixels->size();) {
         size_t start = random.bits() % (tape_length / 2);
         size_t n = std::min(tape_length - start, pixels->size() - done);

@@ -9,7 +9,7 @@ namespace sim
 
 Simulation::Simulation(const Config &config, const Rig &rig, uint64_t seed)
     : config_(config), rig_(rig), robot_(world_, rig, config), light_(config, seed),
-      encoder_random_(seed, 1), start_(rig.joints.size(), 0.0)
+      mounts_(config, seed), encoder_random_(seed, 1), start_(rig.joints.size(), 0.0)
 {
     for (int i = 0; i < config.start.n; i++)
         start_[static_cast<size_t>(i)] = config.start.value[i];
@@ -89,13 +89,14 @@ Snapshot Simulation::snapshot(int64_t number) const
 {
     std::vector<Eigen::Isometry3d> poses = robot_.segment_poses();
     double seconds = static_cast<double>(steps_) * physics_step;
+    MountTurns turns = mounts_.at(seconds, number);
 
     return {number,
             shapes(poses),
             tool_->ball(),
             config_.ball_radius,
-            rig_link(rig_.left_eye, poses),
-            rig_link(rig_.right_eye, poses),
+            rig_link(rig_.left_eye, poses) * turns.left,
+            rig_link(rig_.right_eye, poses) * turns.right,
             light_.at(seconds, number, brightness_)};
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "simrobot/light.h"
+#include "simrobot/mounts.h"
 #include "simrobot/random.h"
 #include "simrobot/robot.h"
 #include "simrobot/tool.h"
@@ -26,11 +27,11 @@ struct Snapshot {
     std::vector<Shape> shapes;
     Eigen::Vector3d ball;
     double ball_radius;
-    Eigen::Isometry3d left_eye, right_eye;
+    Eigen::Isometry3d left_eye, right_eye; /* as the mounts have turned them */
     LightState light;
 };
 
-/* Ground truth about this instant. */
+/* Ground truth about this instant. The eyes are where the robot believes them (mounts.h). */
 struct Truth {
     std::vector<double> position, velocity; /* rad, rad/s */
     Eigen::Vector3d ball;                   /* m */
@@ -95,6 +96,7 @@ private:
     std::unique_ptr<Tool> tool_;
     int tool_index_ = 0;
     Light light_;
+    Mounts mounts_;
     double brightness_ = 1;
     Random encoder_random_;
     std::vector<double> start_;

@@ -21,7 +21,7 @@ using fixture::degree;
 namespace
 {
 
-#define STUDIO "eyes.noise=0", "light.drift=0", "light.flicker=0"
+#define STUDIO "eyes.noise=0", "eyes.tremble=0", "eyes.creep=0", "light.drift=0", "light.flicker=0"
 
 std::unique_ptr<sim::Renderer> renderer(const sim::Config &config)
 {
@@ -299,6 +299,33 @@ START_TEST(test_light_wanders_within_bounds)
 }
 END_TEST
 
+/* Frame to frame some 0.3 px, slowly less than 2 px, in both eyes nearly alike. */
+START_TEST(test_mounts_give_as_configured)
+{
+    sim::Config config = fixture::config();
+    sim::Mounts mounts(config, fixture::test_seed());
+    const int n = 6000;
+    double last[2] = {}, squares[2] = {}, farthest = 0;
+
+    for (int i = 0; i < n; i++) {
+        sim::MountTurns turns = mounts.at(i / 30.0, i);
+        Eigen::Vector3d left = turns.left * Eigen::Vector3d::UnitX();
+        Eigen::Vector3d right = turns.right * Eigen::Vector3d::UnitX();
+        double now[2] = {right.y() * config.focal_length,
+                         (left.y() - right.y()) * config.focal_length};
+        for (int k = 0; k < 2; k++) {
+            squares[k] += i ? (now[k] - last[k]) * (now[k] - last[k]) / 2 / n : 0;
+            last[k] = now[k];
+        }
+        farthest = std::max(farthest, std::fabs(now[0]));
+    }
+    double expected = config.eye_tremble * config.focal_length;
+    ck_assert_double_eq_tol(std::sqrt(squares[0]), expected, 0.1 * expected);
+    ck_assert_double_lt(std::sqrt(squares[1]), 0.6 * expected);
+    ck_assert_double_lt(farthest, 2.5);
+}
+END_TEST
+
 START_TEST(test_missing_graphics_are_said_in_one_line)
 {
     std::string error;
@@ -320,6 +347,7 @@ int main()
                             test_sensor_noise_does_not_wrap_around,
                             test_jpeg_and_raw_agree,
                             test_light_wanders_within_bounds,
+                            test_mounts_give_as_configured,
                             test_missing_graphics_are_said_in_one_line};
     return SUITE_RUN("simrobot eyes", tests);
 }
