@@ -128,6 +128,36 @@ START_TEST(test_ball_is_drawn_where_the_projection_says)
 }
 END_TEST
 
+/* A part of the robot is drawn where the projection says, up and down, left and right. */
+START_TEST(test_shapes_are_drawn_where_the_projection_says)
+{
+    auto stage = looking({-64, -15, 5, -70}, 0, 0, 0);
+    std::unique_ptr<sim::Renderer> draws = renderer(stage->config);
+    sim::Snapshot blank = stage->simulation->snapshot(1);
+    sim::StereoPixels with_it, without_it;
+
+    blank.shapes.clear();
+    blank.ball = blank.right_eye * Eigen::Vector3d(-5, 0, 0);
+    draws->draw(blank, &without_it);
+    for (double y : {-0.08, 0.06})
+        for (double z : {-0.05, 0.07}) {
+            sim::Snapshot snapshot = blank;
+            Eigen::Vector3d at = snapshot.right_eye * Eigen::Vector3d(0.6, y, z);
+            Eigen::Isometry3d pose(Eigen::Translation3d(at.x(), at.y(), at.z()));
+            snapshot.shapes.push_back(
+                {sim::ShapeKind::sphere, {0.015, 0, 0}, pose, {0.9f, 0.1f, 0.1f}});
+            draws->draw(snapshot, &with_it);
+            sim::Projection p =
+                sim::rig_project(stage->rig, snapshot.left_eye, snapshot.right_eye, at);
+            Spot left = find_difference(stage->config, with_it, without_it, 0);
+            Spot right = find_difference(stage->config, with_it, without_it, 1);
+            /* A mesh's outline has corners: half a pixel. */
+            ck_assert_double_lt(std::hypot(left.u - p.u_left, left.v - p.v_left), 0.5);
+            ck_assert_double_lt(std::hypot(right.u - p.u_right, right.v - p.v_right), 0.5);
+        }
+}
+END_TEST
+
 /* A board before the ball hides as much in the picture as the rays say. */
 START_TEST(test_hidden_share_is_that_of_the_picture)
 {
@@ -340,6 +370,7 @@ END_TEST
 int main()
 {
     const TTest *tests[] = {test_ball_is_drawn_where_the_projection_says,
+                            test_shapes_are_drawn_where_the_projection_says,
                             test_hidden_share_is_that_of_the_picture,
                             test_rays_meet_every_kind_of_shape,
                             test_same_seed_draws_the_same_bytes,
