@@ -67,7 +67,7 @@ const struct option_row robot_rows[] = {
      "of the slowest part of it", nullptr},
     {"images.format", OPTION_CHOICE, AT(image_format), nullptr, "jpeg", 0, 0,
      "on the bus; rgb needs net.core.rmem_max above 4 MB", "jpeg|rgb"},
-    {"images.quality", OPTION_INT, AT(jpeg_quality), nullptr, "95", 1, 100, "of JPEG", nullptr},
+    {"images.quality", OPTION_INT, AT(jpeg_quality), nullptr, "85", 1, 100, "of JPEG", nullptr},
     {"light.drift", OPTION_NUMBER, AT(light_drift), nullptr, "1.0", 0, 3,
      "how far direction, strength and colour of the light wander; 0 is a studio", nullptr},
     {"light.period", OPTION_NUMBER, AT(light_period), "s", "40", 1, 100000,

@@ -43,7 +43,7 @@ bool ImageMessage::compress(const uint8_t *pixels, int eye, std::string *error)
 
     size_[eye] = data_[eye].size();
     if (tjCompress2(compressor_, pixels, width_, 2 * width_ * 4, height_, TJPF_RGBX, &out,
-                    &size_[eye], TJSAMP_422, quality_, TJFLAG_NOREALLOC) == 0)
+                    &size_[eye], TJSAMP_422, quality_, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) == 0)
         return true;
     *error = std::string("eyes: TurboJPEG: ") + tjGetErrorStr2(compressor_);
     return false;
