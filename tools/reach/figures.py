@@ -15,7 +15,7 @@ COLOURS = {"hand": "#1f5fa8", "tool": "#b8500f"}
 PAPER = "#777777"
 COMPONENTS = ("yaw, deg", "pitch, deg", "disparity, px")
 JOINTS = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow", "neck yaw", "neck pitch")
-WINDOW = 20  # samples of the running error
+WINDOW = 10  # samples of the running error
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 10,
@@ -23,6 +23,7 @@ STYLE = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
+    "axes.axisbelow": True,
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.6,
     "legend.frameon": False,
@@ -81,7 +82,7 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
         first = last
     for axis, component in zip(axes[:, 0], COMPONENTS, strict=True):
         axis.set(ylabel=component, yscale="log")
-    axes[0, 0].legend(ncols=3, loc="upper right")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside upper center")
     axes[2, 0].set_xlabel("training samples")
     return figure
 
@@ -102,7 +103,7 @@ def stars(record: Record, run: dict) -> Figure:
         axis.plot(targets[:, 0], targets[:, 1], "k+", ms=11, mew=1.4, label="targets")
         axis.set(title=name, xlabel="u, px", ylabel="v, px", xlim=(-65, 65), ylim=(65, -65))
         axis.set_aspect("equal")
-        axis.legend(loc="upper left", fontsize=8)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside upper center")
     return figure
 
 

@@ -167,7 +167,7 @@ the paper's, whose cameras differ.</p>"""
 _EYES = """Both cameras at the end of the tests with the hand and with the tube. The circle is the
 ball that vision found, the cross its centre; it saw nothing but these images."""
 _LEARNING = """Errors of predictions made before each sample was learned (dots; line: root mean
-square of the last 20), hand first, then the tube, which nobody announced to the daemon. Diamonds:
+square of the last 10), hand first, then the tube, which nobody announced to the daemon. Diamonds:
 the test sets. Dashed: the paper's final error as a percentage of our range (figure 16)."""
 _STARS = """The ball in the right image while the arm reaches for eight ends and back, the head at
 rest (paper, figures 21 and 24). The true track is the simulator's, without noise."""
