@@ -27,7 +27,7 @@ public:
     double gaussian();
 
 private:
-    uint64_t state_[4];
+    uint64_t state_[4] = {};
 };
 
 } // namespace sim

@@ -76,7 +76,7 @@ private:
     lcm_t *truth_lcm_ = nullptr; /* the same as lcm_ unless it has a URL of its own */
     struct bus_claim *claim_ = nullptr;
     std::vector<std::string> joint_names_;
-    Command command_;
+    Command command_ = {};
     bool has_command_ = false;
     std::deque<reach_sim_request_t> requests_;
     int64_t last_request_ = 0;

@@ -7,8 +7,6 @@
 #include "fixture.h"
 #include "suite.h"
 
-using fixture::degree;
-
 namespace
 {
 
