@@ -38,6 +38,21 @@ void set_vector(GLuint program, const char *name, const Eigen::Vector3f &v)
     glUniform3f(glGetUniformLocation(program, name), v.x(), v.y(), v.z());
 }
 
+struct Span {
+    float low, high;
+};
+
+/* Where the lines from the eye that touch a sphere meet the plane x = 1, in one of its directions,
+ * with `rim` to spare: `ahead` and `aside` are the sphere's centre. */
+Span sphere_span(float ahead, float aside, float radius, float rim)
+{
+    float scale = 1 / (ahead * ahead - radius * radius);
+    float half = radius * std::sqrt(ahead * ahead + aside * aside - radius * radius) * scale;
+    float middle = ahead * aside * scale;
+
+    return {middle - half - rim, middle + half + rim};
+}
+
 const void *at_offset(size_t bytes)
 {
     return reinterpret_cast<const void *>(bytes);
@@ -201,11 +216,11 @@ void Renderer::draw_ball(const Eigen::Isometry3d &eye, const Snapshot &snapshot)
 
     if (centre.x() < near_plane + 2 * radius)
         return;
-    /* Off the axis a sphere looks longer than wide; a third more than its radius is enough. */
-    float u = -centre.y() / centre.x(), v = -centre.z() / centre.x();
-    float half = 1.35f * radius / centre.x() + 2 / focal_length_;
+    Span across = sphere_span(centre.x(), -centre.y(), radius, 1 / focal_length_);
+    Span down = sphere_span(centre.x(), -centre.z(), radius, 1 / focal_length_);
     glUseProgram(ball_);
-    glUniform4f(glGetUniformLocation(ball_, "square"), u - half, v - half, u + half, v + half);
+    glUniform4f(glGetUniformLocation(ball_, "square"), across.low, down.low, across.high,
+                down.high);
     glUniform2f(glGetUniformLocation(ball_, "scale"),
                 2 * focal_length_ / static_cast<float>(width_),
                 2 * focal_length_ / static_cast<float>(height_));

@@ -80,7 +80,11 @@ void main()
     vec3 hit = (along - before) * direction;
     vec3 normal = normalize(hit - centre);
     float sky = 0.75 + 0.25 * dot(normal, up);
-    float shine = pow(max(dot(reflect(direction, normal), lamp_direction), 0.0), 24.0);
+    float shine = max(dot(reflect(direction, normal), lamp_direction), 0.0);
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    shine *= shine * shine; /* to the power of 24: powers and roots are dear without a GPU */
     vec3 light = lamp * max(dot(normal, lamp_direction), 0.0) + ambient * sky;
     pixel = vec4(paint * light + 0.16 * shine * lamp, coverage);
     gl_FragDepth = depth.x + depth.y / hit.x;
