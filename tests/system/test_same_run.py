@@ -33,8 +33,10 @@ def commands_of_babbling(out: Path, *simrobot: str) -> dict[int, bytes]:
     with Processes(out) as processes:
         programs.start(processes, out, seed=3, simrobot=simrobot)
         bus = Bus(programs.LISTENER_URL, processes.check)
-        programs.wait_until_ready(bus)
-        experiment = Experiment(bus, HeldClock(bus), Progress({}), [])
+        programs.wait_until_ready(bus, out)
+        clock = HeldClock(bus)
+        clock.advance(0.5)
+        experiment = Experiment(bus, clock, Progress({}), [])
         experiment.babble("babble", 3, seed=8, learn=True)
     rows = read_log(out / "run.lcmlog")["ROBOT_COMMAND"]
     return {int(row["state_seq"]): row["velocity"].tobytes() for row in rows}

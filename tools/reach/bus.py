@@ -19,7 +19,8 @@ class NoAnswerError(Exception):
 
 
 class Bus:
-    """`check` is called while waiting; it raises when a process has died."""
+    """`check` is called after every look at the bus; it raises when there is no point in going on:
+    a process has died, the user wants an end."""
 
     def __init__(self, url: str = DEFAULT_URL, check: Callable[[], None] = lambda: None):
         self._lcm = lcm.LCM(url)
@@ -51,9 +52,18 @@ class Bus:
     def handle(self, seconds: float) -> None:
         """Takes in what comes during this time, at least what is there already."""
         end = time.monotonic() + seconds
-        while self._lcm.handle_timeout(max(0, int((end - time.monotonic()) * 1000))) > 0:
+        while self._look(max(0, int((end - time.monotonic()) * 1000))):
             if time.monotonic() >= end:
                 break
+
+    def _look(self, milliseconds: int) -> bool:
+        """Handles one message, when one comes in this time."""
+        try:
+            handled = self._lcm.handle_timeout(milliseconds) > 0
+        except OSError:  # a signal broke into the call; what has failed for good is silent
+            handled = False
+        self._check()
+        return handled
 
     def wait(self, done: Callable[[], bool], who: str, resend: Callable[[], None],
              progress: Callable[[], object] = lambda: None) -> None:  # fmt: skip
@@ -65,12 +75,11 @@ class Bus:
         last = progress()
         resend()
         while not done():
-            self._lcm.handle_timeout(100)
+            self._look(100)
             now = time.monotonic()
             if progress() != last:
                 last, moved, sent = progress(), now, now
             if now - sent > RESEND_SECONDS:
-                self._check()
                 resend()
                 sent = now
             if now - moved > GIVE_UP_SECONDS:

@@ -68,16 +68,37 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
             "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
 
 
+class Stop:
+    """Notes that the user wants an end.
+
+    It is raised only between two looks at the bus: an exception out of a signal may strike
+    anywhere, even where the programs are being ended.
+    """
+
+    def __init__(self):
+        self._asked = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._note)
+
+    def _note(self, *_) -> None:
+        self._asked = True
+
+    def check(self) -> None:
+        if self._asked:
+            raise KeyboardInterrupt
+
+
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
+    stop = Stop()
     with Processes(options.out) as processes:
         programs.start(
             processes, options.out, seed=options.seed, experts=options.experts,
             realtime=options.realtime, keep_images=options.keep_images,
         )  # fmt: skip
-        bus = Bus(programs.LISTENER_URL, processes.check)
-        programs.wait_until_ready(bus)
-        clock = RealClock(bus, processes.check) if options.realtime else HeldClock(bus)
+        bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
+        programs.wait_until_ready(bus, options.out)
+        clock = RealClock(bus) if options.realtime else HeldClock(bus)
         experiment = Experiment(bus, clock, Progress(weights(options)), phases)
         clock.advance(1.0)
         perform(experiment, bus, clock, options)
@@ -130,22 +151,14 @@ def kept(out: Path, phases: list[dict]) -> str:
     return f"kept {out / 'run.lcmlog'} and the programs' logs beside it; {done}"
 
 
-def _on_signal(*_) -> None:
-    """Once: a second Ctrl-C must not break the cleaning up."""
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
-    raise KeyboardInterrupt
-
-
 def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     options.out = options.out.resolve()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _on_signal)
     start, phases = time.monotonic(), []
     try:
         prepare_folder(options.out)
         run(options, phases)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         write_json(options.out / "run.json", describe(options, phases, time.monotonic() - start))
         conclude(options)
     except KeyboardInterrupt:

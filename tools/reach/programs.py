@@ -1,14 +1,15 @@
 """The programs of an experiment, started as a user would start them."""
 
 import os
+import sys
 from pathlib import Path
 
 from .bus import DEFAULT_URL, Bus
 from .messages import ROOT, reach
 from .processes import Processes
+from .recorder import ALL_BUT_IMAGES
 
 BINARIES = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
-LOG_ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
 # Who listens to everything needs room for what comes while it does not run; the kernel grants up
 # to its net.core.rmem_max.
 LISTENER_URL = f"{DEFAULT_URL}&recv_buf_size=8388608"
@@ -24,16 +25,18 @@ def start(
     keep_images: bool = False,
     simrobot: tuple = (),
 ) -> None:
-    """Starts logger, reachd, vision and simrobot, whose further options are `simrobot`."""
-    channels = ".*" if keep_images else LOG_ALL_BUT_IMAGES
+    """Starts recorder, reachd, vision and simrobot, whose further options are `simrobot`."""
+    channels = ".*" if keep_images else ALL_BUT_IMAGES
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
     etc, url = ROOT / "etc", ["--url", DEFAULT_URL]
+    configurations = ["--config", etc / "kobian.yaml"]
+    if experts == "linear":  # they want other priors, too
+        configurations += ["--config", etc / "learner-linear.yaml"]
     commands = {
-        "logger": ["lcm-logger", "-q", "-f", f"--lcm-url={LISTENER_URL}", "-c", channels,
-                   out / "run.lcmlog"],
-        "reachd": [BINARIES / "reachd", "--config", etc / "kobian.yaml", *url, daemon_clock,
-                   "--set", f"learner.experts={experts}"],
+        "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,
+                     "--channels", channels, out / "run.lcmlog"],
+        "reachd": [BINARIES / "reachd", *configurations, *url, daemon_clock],
         "vision": [BINARIES / "vision", "--config", etc / "vision-kobian.yaml", *url],
         "simrobot": [BINARIES / "simrobot", "--config", etc / "simrobot-kobian.yaml", *url, *clock,
                      "--seed", str(seed), *simrobot],
@@ -42,8 +45,9 @@ def start(
         processes.start(name, command)
 
 
-def wait_until_ready(bus: Bus) -> None:
-    """Until all three have answered on the bus."""
+def wait_until_ready(bus: Bus, out: Path) -> None:
+    """Until the log is being written and the three programs have answered on the bus."""
+    bus.wait((out / "run.lcmlog").exists, "the recorder", lambda: None)
     hello = reach.hello_t
     bus.wait_for_role(hello.DAEMON, "reachd")
     bus.wait_for_role(hello.VISION, "vision")

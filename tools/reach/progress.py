@@ -37,7 +37,7 @@ class Progress:
         total = sum(self._weights.values())
         done = sum(self._weights[name] for name in self._done)
         done += share * self._weights.get(phase, 0.0)
-        if done < 0.01 * total:
+        if done <= 0.01 * total:
             return "time left unknown yet"
         seconds = (time.monotonic() - self._start) * (total - done) / done
         return f"{int(seconds) // 60}:{int(seconds) % 60:02d} left"

@@ -9,6 +9,8 @@ from . import metrics
 from .record import Record
 
 TRACK = 5  # status_t.phase
+# Frames exposed later than this before the end may still be on their way when all is stopped.
+IN_FLIGHT_US = 200_000
 DIGITS = 6
 
 
@@ -102,22 +104,26 @@ def star(record: Record, phase: dict) -> dict:
     }
 
 
+def robot_seconds(run: dict) -> float:
+    return (run["phases"][-1]["end"] - run["phases"][0]["start"]) * 1e-6
+
+
 def wall(record: Record, run: dict) -> dict:
-    status = record["REACH_STATUS"]
-    simulated = (status["utime"][-1] - status["utime"][0]) * 1e-6
     return {
         "seconds": run["wall_seconds"],
-        "real_time_factor": simulated / run["wall_seconds"],
-        "tick_us": metrics.quantiles(status["compute_us"]),
+        "real_time_factor": robot_seconds(run) / run["wall_seconds"],
+        "tick_us": metrics.quantiles(record["REACH_STATUS"]["compute_us"]),
         "vision_us": metrics.quantiles(record["MARKER"]["compute_us"]),
         "log_lost": record.lost(),
     }
 
 
 def summarise(record: Record, run: dict) -> dict:
-    marker = metrics.marker_errors(record["MARKER"], record["SIM_TRUTH"])
+    start, end = run["phases"][0]["start"], run["phases"][-1]["end"]
+    frames = (record.between(c, start, end - IN_FLIGHT_US) for c in ("MARKER", "SIM_TRUTH"))
+    marker = metrics.marker_errors(*frames)
     tests = [samples_of(record, p) for p in run["phases"] if "test" in p["name"]]
-    last = record["REACH_STATUS"][-1]
+    last = record.between("REACH_STATUS", start, end)[-1]
     std_u, std_v, std_d = marker["std"]
     return rounded(
         {
@@ -135,7 +141,7 @@ def summarise(record: Record, run: dict) -> dict:
             "skipped": {phase["name"]: phase["skipped"] for phase in run["phases"]},
             "bad_inputs": int(last["bad_inputs"]),
             "gated": int(last["gated"]),
-            "robot_seconds": (last["utime"] - record["REACH_STATUS"]["utime"][0]) * 1e-6,
+            "robot_seconds": robot_seconds(run),
             "wall": wall(record, run),
         }
     )  # fmt: skip

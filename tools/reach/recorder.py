@@ -1,0 +1,57 @@
+"""Writes what is said on the bus into an LCM log, until SIGTERM.
+
+Stands in for lcm-logger, which keeps at most 30 messages waiting and loses the rest without a word
+when it does not run for some 30 ms; a log with gaps would make a summary depend on the machine.
+"""
+
+import argparse
+import signal
+import time
+
+import lcm
+
+ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
+QUEUE = 100_000  # messages that may wait; a full queue drops the newest
+POLL_MS = 100
+
+
+class Recorder:
+    def __init__(self, url: str, channels: str, path: str):
+        self._lcm = lcm.LCM(url)
+        self._stop = False
+        self._lcm.subscribe(channels, self._write).set_queue_capacity(QUEUE)
+        # Last: that the file exists says to others that nothing will be missed from now on.
+        self._log = lcm.EventLog(path, "w", overwrite=True)
+
+    def _write(self, channel: str, data: bytes) -> None:
+        self._log.write_event(int(time.time() * 1e6), channel, data)
+
+    def stop(self, *_) -> None:
+        self._stop = True
+
+    def run(self) -> None:
+        """Also what is still waiting when it is told to stop is written."""
+        waiting = 1
+        while waiting or not self._stop:
+            try:
+                waiting = self._lcm.handle_timeout(POLL_MS)
+            except OSError:  # the signal broke into the call
+                if not self._stop:
+                    raise
+        self._log.close()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="reach.recorder", description=__doc__)
+    parser.add_argument("--url", required=True)
+    parser.add_argument("--channels", default=ALL_BUT_IMAGES, help="pattern; default %(default)s")
+    parser.add_argument("log")
+    options = parser.parse_args()
+    recorder = Recorder(options.url, options.channels, options.log)
+    signal.signal(signal.SIGTERM, recorder.stop)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    recorder.run()
+
+
+if __name__ == "__main__":
+    main()
