@@ -38,25 +38,45 @@ def _figure(rows: int, columns: int, height: float, **options):
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
+def _eye(axis, folder: Path, name: str, side: str) -> None:
+    """One picture, and the ball where vision found it."""
+    found = json.loads((folder / f"{name}.json").read_text())
+    picture = matplotlib.image.imread(folder / f"{name}-{side}.png")
+    height, width = picture.shape[:2]
+    axis.imshow(picture, extent=(-width / 2, width / 2, height / 2, -height / 2))
+    axis.set(title=f"{side} eye, {name}", xlabel="u, px", ylabel="v, px")
+    axis.grid(visible=False)
+    if found["seen"]:
+        place = (found["u_right"] + (found["disparity"] if side == "left" else 0), found["v_right"])
+        axis.add_patch(Circle(place, found["radius"], fill=False, color="#ffffff", lw=1.6))
+        axis.plot(*place, "+", color="#ff2fd0", markersize=9)
+
+
+def _names(folder: Path) -> list[str]:
+    return [name for name in ("hand", "tool") if (folder / f"{name}.json").exists()]
+
+
 def eyes(folder: Path) -> Figure | None:
-    """Both eyes, with the hand and with the tool, and the ball where vision found it."""
-    names = [name for name in ("hand", "tool") if (folder / f"{name}.json").exists()]
+    """Both eyes, with the hand and with the tool."""
+    names = _names(folder)
     if not names:
         return None
     figure, axes = _figure(len(names), 2, 3.4 * len(names))
     for row, name in zip(axes, names, strict=True):
-        found = json.loads((folder / f"{name}.json").read_text())
         for axis, side in zip(row, ("left", "right"), strict=True):
-            picture = matplotlib.image.imread(folder / f"{name}-{side}.png")
-            height, width = picture.shape[:2]
-            axis.imshow(picture, extent=(-width / 2, width / 2, height / 2, -height / 2))
-            axis.set(title=f"{side} eye, {name}", xlabel="u, px", ylabel="v, px")
-            axis.grid(visible=False)
-            if found["seen"]:
-                u = found["u_right"] + (found["disparity"] if side == "left" else 0)
-                place = (u, found["v_right"])
-                axis.add_patch(Circle(place, found["radius"], fill=False, color="#ffffff", lw=1.6))
-                axis.plot(*place, "+", color="#ff2fd0", markersize=9)
+            _eye(axis, folder, name, side)
+    return figure
+
+
+def result(record: Record, run: dict, folder: Path) -> Figure | None:
+    """The run in one picture: what the right eye saw, and the STARs."""
+    names = _names(folder)
+    if len(names) < 2:
+        return None
+    figure, axes = _figure(2, 2, 7.6, height_ratios=(3.2, 4.2))
+    for column, name in enumerate(names):
+        _eye(axes[0, column], folder, name, "right")
+        _star(axes[1, column], record, run, name)
     return figure
 
 
@@ -87,22 +107,26 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
     return figure
 
 
+def _star(axis, record: Record, run: dict, name: str) -> None:
+    targets = metrics.star_targets()
+    segments = summary.star_segments(record, summary.phase_named(run, f"star_{name}"))
+    start, end = segments[0][0], segments[-1][1]
+    marker = record.between("MARKER", start, end)
+    marker = marker[marker["seen"] == 1]
+    _, track = summary.true_track(record, start, end)
+    axis.plot(marker["u_right"], marker["v_right"], ".", color="#b5b5b5", ms=2.5,
+              label="measured by vision")  # fmt: skip
+    axis.plot(track[:, 0], track[:, 1], color=COLOURS[name], label="true")
+    axis.plot(targets[:, 0], targets[:, 1], "k+", ms=11, mew=1.4, label="targets")
+    axis.set(title=f"STAR, {name}", xlabel="u, px", ylabel="v, px", xlim=(-65, 65), ylim=(65, -65))
+    axis.set_aspect("equal")
+
+
 def stars(record: Record, run: dict) -> Figure:
     """The ball in the right image during both STARs."""
     figure, axes = _figure(1, 2, 4.7, sharex=True, sharey=True)
-    targets = metrics.star_targets()
     for axis, name in zip(axes[0], ("hand", "tool"), strict=True):
-        segments = summary.star_segments(record, summary.phase_named(run, f"star_{name}"))
-        start, end = segments[0][0], segments[-1][1]
-        marker = record.between("MARKER", start, end)
-        marker = marker[marker["seen"] == 1]
-        _, track = summary.true_track(record, start, end)
-        axis.plot(marker["u_right"], marker["v_right"], ".", color="#b5b5b5", ms=2.5,
-                  label="measured by vision")  # fmt: skip
-        axis.plot(track[:, 0], track[:, 1], color=COLOURS[name], label="true")
-        axis.plot(targets[:, 0], targets[:, 1], "k+", ms=11, mew=1.4, label="targets")
-        axis.set(title=name, xlabel="u, px", ylabel="v, px", xlim=(-65, 65), ylim=(65, -65))
-        axis.set_aspect("equal")
+        _star(axis, record, run, name)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside upper center")
     return figure
 

@@ -54,6 +54,8 @@ def write(out: Path, record: Record, run: dict, result: dict) -> None:
     )
     page = _PAGE.substitute(title=title, subtitle=subtitle, body="\n".join(parts))
     (out / "report.html").write_text(page)
+    if (picture := figures.result(record, run, out / "images")) is not None:
+        picture.savefig(out / "result.png", dpi=100)
 
 
 def five_lines(out: Path, record: Record, result: dict) -> list[str]:
