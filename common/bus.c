@@ -11,6 +11,9 @@
 #include <unistd.h>
 
 static const char hello_channel[] = "REACH_HELLO";
+#define RECEIVE_BUFFER_WANTED (8L << 20) /* bytes */
+#define URL_MOST 512
+
 static const int self_test_ms = 500;
 
 static int64_t clock_us(clockid_t clock)
@@ -99,13 +102,39 @@ static lcm_t *no_route(const char *url, char *error, size_t error_size)
     return NULL;
 }
 
-lcm_t *bus_open(const char *url, char *error, size_t error_size)
+/* What the kernel grants a socket at most; LCM complains aloud about a wish that is not met. */
+static long receive_buffer_most(void)
+{
+    FILE *file = fopen("/proc/sys/net/core/rmem_max", "r");
+    long most = 0;
+
+    if (!file)
+        return 0;
+    if (fscanf(file, "%ld", &most) != 1)
+        most = 0;
+    fclose(file);
+    return most < RECEIVE_BUFFER_WANTED ? most : RECEIVE_BUFFER_WANTED;
+}
+
+void bus_url(const char *url, char *full, size_t size)
 {
     const char *environment = getenv("LCM_DEFAULT_URL");
-    lcm_t *lcm;
+    long buffer = receive_buffer_most();
 
     if (!url || !*url)
         url = environment && *environment ? environment : BUS_DEFAULT_URL;
+    if (strncmp(url, "udpm:", 5) != 0 || strstr(url, "recv_buf_size") || buffer <= 0)
+        snprintf(full, size, "%s", url);
+    else
+        snprintf(full, size, "%s%crecv_buf_size=%ld", url, strchr(url, '?') ? '&' : '?', buffer);
+}
+
+lcm_t *bus_open(const char *given, char *error, size_t error_size)
+{
+    char url[URL_MOST];
+    lcm_t *lcm;
+
+    bus_url(given, url, sizeof url);
     if (!has_route(url))
         return no_route(url, error, error_size);
     lcm = lcm_create(url);

@@ -15,6 +15,11 @@ extern "C" {
 /* ttl=0: messages stay on this machine. */
 #define BUS_DEFAULT_URL "udpm://239.255.76.67:7667?ttl=0"
 
+/* The whole address: `url`, NULL or "" being $LCM_DEFAULT_URL, else BUS_DEFAULT_URL; with the
+ * largest receive buffer that the kernel grants, unless it names one. Pictures pass through every
+ * socket of the bus, and a small buffer loses what comes behind them. */
+void bus_url(const char *url, char *full, size_t size);
+
 /* Opens the bus and sends itself a message, since LCM itself reports nothing when the multicast
  * route is missing. `url` NULL or "" is $LCM_DEFAULT_URL, else BUS_DEFAULT_URL.
  *   returns the instance, to be freed with lcm_destroy, or NULL with one line in `error` that

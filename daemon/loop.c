@@ -28,8 +28,8 @@ struct loop {
     struct tick_outputs outputs;
     struct received_state received; /* newest state taken from the mailbox */
     bool any_state;
-    reach_marker_t pending; /* lockstep: a marker that is not due yet */
-    bool has_pending;
+    reach_marker_t pending[TICK_MAX_MARKERS]; /* lockstep: markers that are not due yet */
+    int n_pending;
     int64_t newest_marker; /* lockstep: exposure of the newest marker consumed, us */
 
     struct timing compute;
@@ -123,26 +123,57 @@ static void report(struct loop *loop, int64_t now)
     atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);
 }
 
+/* Whether a marker of this exposure was consumed or waits already. */
+static bool is_repeat(const struct loop *loop, int64_t utime)
+{
+    for (int i = 0; i < loop->n_pending; i++)
+        if (loop->pending[i].utime == utime)
+            return true;
+    return utime <= loop->newest_marker;
+}
+
+/* Lockstep: takes in what has come; markers may come ahead of time, again, or out of order. */
+static void collect_markers(struct loop *loop)
+{
+    reach_marker_t marker;
+
+    while (mailbox_take(daemon_bus_markers(loop->bus), &marker))
+        if (loop->n_pending < TICK_MAX_MARKERS && !is_repeat(loop, marker.utime))
+            loop->pending[loop->n_pending++] = marker;
+}
+
+/* Hands the oldest marker up to `due` to the tick. Returns false when none is left. */
+static bool hand_oldest(struct loop *loop, int64_t due)
+{
+    int oldest = -1;
+
+    for (int i = 0; i < loop->n_pending; i++)
+        if (loop->pending[i].utime <= due &&
+            (oldest < 0 || loop->pending[i].utime < loop->pending[oldest].utime))
+            oldest = i;
+    if (oldest < 0)
+        return false;
+    loop->newest_marker = loop->pending[oldest].utime;
+    loop->inputs.marker[loop->inputs.n_markers++] = loop->pending[oldest];
+    loop->pending[oldest] = loop->pending[--loop->n_pending];
+    return true;
+}
+
 /* Lockstep: markers up to the one that is due, no further, so that a run does not depend on how
- * fast vision is. Returns whether the one that is due has come. */
+ * fast vision is; and no less, so that it does not depend on what the bus lost: the simulator asks
+ * again for what is missing. Returns whether the one that is due has come. */
 static bool take_due_markers(struct loop *loop, int64_t due)
 {
-    struct tick_inputs *inputs = &loop->inputs;
-
-    while (loop->newest_marker < due && inputs->n_markers < TICK_MAX_MARKERS) {
-        if (!loop->has_pending)
-            loop->has_pending = mailbox_take(daemon_bus_markers(loop->bus), &loop->pending);
-        if (!loop->has_pending)
-            return false;
-        if (loop->pending.utime > due)
-            return true; /* the eyes have moved on: the one that was due is lost */
-        loop->has_pending = false;
-        if (loop->pending.utime <= loop->newest_marker)
-            continue; /* a repeat */
-        loop->newest_marker = loop->pending.utime;
-        inputs->marker[inputs->n_markers++] = loop->pending;
-    }
-    return true;
+    collect_markers(loop);
+    if (loop->newest_marker >= due)
+        return true;
+    for (int i = 0; i < loop->n_pending; i++)
+        if (loop->pending[i].utime == due) {
+            while (hand_oldest(loop, due))
+                ;
+            return true;
+        }
+    return false;
 }
 
 /* Waits for the marker that is due with the state. Returns false when the loop is to end. */
@@ -167,7 +198,7 @@ static void step_lockstep(struct loop *loop)
 
     if (loop->any_state && state->utime < loop->inputs.state.utime) {
         loop->newest_marker = 0; /* the simulator began anew */
-        loop->has_pending = false;
+        loop->n_pending = 0;
     }
     if (!wait_for_marker(loop, state->vision_due))
         return;

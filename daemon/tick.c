@@ -146,15 +146,17 @@ static void supervise(struct tick *tick, const struct tick_inputs *inputs)
         tick->behaviour.ops = NULL;
 }
 
-/* What the behaviour wants, shaped; nothing when none may run. */
+/* What the behaviour wants, shaped; rest when none runs. What the supervisor stops is stopped by
+ * the gate alone, as fast as the robot may. */
 static void behave(struct tick *tick, struct control *control)
 {
     const struct config *config = tick->config;
     int n_arm = config_arm_joints(config);
 
-    if (tick->state != SUPERVISOR_ACTIVE || !tick->behaviour.ops)
+    if (tick->state != SUPERVISOR_ACTIVE && tick->state != SUPERVISOR_IDLE)
         return;
-    if (!tick->behaviour.ops->step(&tick->behaviour, control)) {
+    if (tick->state == SUPERVISOR_ACTIVE && tick->behaviour.ops &&
+        !tick->behaviour.ops->step(&tick->behaviour, control)) {
         tick->behaviour.ops = NULL;
         memset(control->velocity, 0, sizeof control->velocity);
     }

@@ -162,7 +162,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     struct bus_claim *claim = nullptr;
     char error[512];
     int code = 1;
-    lcm_t *lcm = bus_open(receive_buffer_url(given.url).c_str(), error, sizeof error);
+    lcm_t *lcm = bus_open(given.url, error, sizeof error);
 
     if (!lcm) {
         log_error("%s", error);

@@ -3,26 +3,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <cstring>
-
-#include "common/bus.h"
 #include "common/log.h"
 
 static const int wanted = 8 << 20; /* bytes */
-
-std::string receive_buffer_url(const char *url)
-{
-    const char *environment = std::getenv("LCM_DEFAULT_URL");
-
-    if (!url || !*url)
-        url = environment && *environment ? environment : BUS_DEFAULT_URL;
-    std::string result = url;
-    if (result.compare(0, 5, "udpm:") != 0 || result.find("recv_buf_size") != std::string::npos)
-        return result;
-    result += result.find('?') == std::string::npos ? "?" : "&";
-    return result + "recv_buf_size=" + std::to_string(wanted);
-}
 
 /* What a socket really gets; the kernel doubles what it grants, for its own use. */
 static int granted()

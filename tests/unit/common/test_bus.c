@@ -33,6 +33,21 @@ START_TEST(the_bus_opens_where_multicast_works)
 }
 END_TEST
 
+START_TEST(the_address_gets_room_for_pictures)
+{
+    char url[512];
+
+    bus_url("udpm://1.2.3.4:5", url, sizeof url);
+    ck_assert_ptr_nonnull(strstr(url, "udpm://1.2.3.4:5?recv_buf_size="));
+    bus_url("udpm://1.2.3.4:5?ttl=0", url, sizeof url);
+    ck_assert_ptr_nonnull(strstr(url, "udpm://1.2.3.4:5?ttl=0&recv_buf_size="));
+    bus_url("udpm://1.2.3.4:5?recv_buf_size=9", url, sizeof url);
+    ck_assert_str_eq(url, "udpm://1.2.3.4:5?recv_buf_size=9");
+    bus_url("memq://", url, sizeof url);
+    ck_assert_str_eq(url, "memq://");
+}
+END_TEST
+
 START_TEST(a_wrong_address_is_told)
 {
     ck_assert_ptr_null(bus_open("nonsense://1", error, sizeof error));
@@ -67,6 +82,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         the_bus_opens_where_multicast_works,
+        the_address_gets_room_for_pictures,
         a_wrong_address_is_told,
         the_second_of_a_kind_is_told,
     };

@@ -173,8 +173,8 @@ START_TEST(it_learns_two_tools_and_reaches_with_both)
     babble(120, true);
     world.robot.tool = 0.35;
     babble(120, true);
-    star(3);
     ck_assert_int_eq(world.outputs.status.solutions, 2);
+    star(3);
     world.robot.tool = 0;
     star(3);
     ck_assert_int_eq(world.outputs.status.gated, 0);

@@ -88,7 +88,7 @@ START_TEST(what_does_not_fit_together_is_refused)
     refuses("head.min=[-40]", "as many entries");
     refuses("motion.arm_velocity=100", "safety.arm_velocity");
     refuses("motion.slow_down=13", "slow_down");
-    refuses("safety.arm_acceleration=201", "could not stop");
+    refuses("safety.head_acceleration=401", "could not stop");
     refuses("safety.state_suspend=0.01", "state_suspend");
     refuses("head.search_velocity=100", "head.search_velocity");
     refuses("learner.reference=[0]", "learner.reference");

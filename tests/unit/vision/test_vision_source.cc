@@ -9,7 +9,6 @@
 #include <string>
 
 #include "fixture.h"
-#include "vision/receive_buffer.h"
 #include "vision/source.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
@@ -107,23 +106,11 @@ START_TEST(what_is_not_there_is_named)
 }
 END_TEST
 
-START_TEST(the_bus_gets_room_for_pictures)
-{
-    ck_assert(receive_buffer_url("udpm://1.2.3.4:5") == "udpm://1.2.3.4:5?recv_buf_size=8388608");
-    ck_assert(receive_buffer_url("udpm://1.2.3.4:5?ttl=0") ==
-              "udpm://1.2.3.4:5?ttl=0&recv_buf_size=8388608");
-    ck_assert(receive_buffer_url("udpm://1.2.3.4:5?recv_buf_size=9") ==
-              "udpm://1.2.3.4:5?recv_buf_size=9");
-    ck_assert(receive_buffer_url("memq://") == "memq://");
-}
-END_TEST
-
 int main()
 {
     const TTest *const tests[] = {
         two_video_files_are_two_eyes,
         what_is_not_there_is_named,
-        the_bus_gets_room_for_pictures,
     };
 
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
