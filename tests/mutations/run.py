@@ -9,6 +9,8 @@ Each *.toml beside this file holds entries
     new = "text in its place"
     killed_by = "ctest_name"
     slow = true            # optional: only with --all
+    targets = ["reachctl"] # optional: what to build; otherwise the program named as the test,
+                           # or everything where there is none
 """
 
 import argparse
@@ -31,6 +33,7 @@ class Mutation:
     new: str
     killed_by: str
     slow: bool = False
+    targets: tuple[str, ...] = ()
 
 
 class BadEntryError(Exception):
@@ -42,7 +45,7 @@ def read_entries(folder: Path) -> list[Mutation]:
     for path in sorted(folder.glob("*.toml")):
         for row in tomllib.loads(path.read_text()).get("mutation", []):
             try:
-                entries.append(Mutation(**row))
+                entries.append(Mutation(**row | {"targets": tuple(row.get("targets", ()))}))
             except TypeError as error:
                 raise BadEntryError(f"{path.name}: {error}") from None
     return entries
@@ -86,7 +89,7 @@ class Workshop:
         # -w: a fault may leave something unused, which is not what must notice it.
         flags = [f"-DCMAKE_{language}_FLAGS=-O1 -w" for language in ("C", "CXX")]
         self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
-                 "-DCMAKE_BUILD_TYPE=None", *flags)  # fmt: skip
+                 "-DCMAKE_BUILD_TYPE=None", f"-DREACH_PYTHON={sys.executable}", *flags)  # fmt: skip
         command = ["ninja", "-C", self.build, "-t", "targets", "all"]
         listing = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         self.targets = {line.split(":")[0] for line in listing.splitlines()}
@@ -96,9 +99,10 @@ class Workshop:
         self.log.flush()
         return subprocess.run(command, stdout=self.log, stderr=self.log).returncode == 0
 
-    def make(self, test: str) -> bool:
-        """Builds what the test needs: its own program, or everything for tests of processes."""
-        return self.run("ninja", "-C", self.build, test if test in self.targets else "all")
+    def make(self, mutation: Mutation) -> bool:
+        """Builds what the test needs."""
+        own = mutation.killed_by if mutation.killed_by in self.targets else "all"
+        return self.run("ninja", "-C", self.build, *(mutation.targets or [own]))
 
     def passes(self, test: str) -> bool:
         return self.run("ctest", "--test-dir", self.build, "-R", f"^{test}$", "--no-tests=error",
@@ -109,7 +113,7 @@ class Workshop:
         original = path.read_text()
         path.write_text(original.replace(mutation.old, mutation.new))
         try:
-            if not self.make(mutation.killed_by):
+            if not self.make(mutation):
                 return "does not compile"
             return "SURVIVED" if self.passes(mutation.killed_by) else "killed"
         finally:
@@ -142,8 +146,8 @@ def main() -> int:
 
 def try_all(shop: Workshop, mutations: list[Mutation]) -> int:
     healthy = {}
-    for test in sorted({m.killed_by for m in mutations}):
-        healthy[test] = shop.make(test) and shop.passes(test)
+    for test, mutation in sorted({m.killed_by: m for m in mutations}.items()):
+        healthy[test] = shop.make(mutation) and shop.passes(test)
         if not healthy[test]:
             print(f"mutations: {test} fails without any mutation, see {shop.log.name}")
     killed = 0
