@@ -189,7 +189,7 @@ int main(int argc, char **argv)
 {
     struct command_settings settings;
     struct words words = {0};
-    struct call call;
+    struct call call = {0};
     struct client *client;
     char error[512] = "the bus failed";
     int result;
