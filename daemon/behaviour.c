@@ -60,6 +60,18 @@ void control_task_velocity(struct control *control, const double *x_velocity)
     taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);
 }
 
+void control_approach(struct control *control, const double *target, double gain,
+                      double *x_velocity)
+{
+    double error[VISUAL_DIMENSIONS];
+
+    memcpy(control->target, target, sizeof control->target);
+    control->has_target = true;
+    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+        error[row] = gain * (target[row] - control->sight->carried[row]);
+    visual_to_task(control->config->pixels_per_radian, error, x_velocity);
+}
+
 void control_gather(struct control *control, int n)
 {
     sight_pair(control->sight, n, control->pair.q, control->pair.x, &control->pair.utime);

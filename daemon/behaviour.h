@@ -102,6 +102,11 @@ enum gaze_state control_gaze(struct control *control, bool may_search);
 /* Arm velocities for a wanted task velocity (rad/s, rad/s, px/s) by eq. 4; none without a model. */
 void control_task_velocity(struct control *control, const double *x_velocity);
 
+/* Feedback in image terms (eq. 5 and 13): `gain` (1/s) times what is left between the marker and
+ * `target` (px), as a task velocity (rad/s, rad/s, px/s). `target` becomes this tick's target. */
+void control_approach(struct control *control, const double *target, double gain,
+                      double *x_velocity);
+
 /* Makes the pair of the last n frames this tick's pair. */
 void control_gather(struct control *control, int n);
 

@@ -27,14 +27,10 @@ static void follow(struct control *control, double disparity)
 {
     const struct config *config = control->config;
     const double *head_velocity = control->velocity + config_arm_joints(config);
-    double error[VISUAL_DIMENSIONS] = {0, 0, disparity};
+    const double centre[VISUAL_DIMENSIONS] = {0, 0, disparity};
     double x_velocity[VISUAL_DIMENSIONS];
 
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
-        error[row] -= control->sight->carried[row];
-    visual_to_task(config->pixels_per_radian, error, x_velocity);
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
-        x_velocity[row] *= config->follow_gain;
+    control_approach(control, centre, config->follow_gain, x_velocity);
     for (int i = 0; i < HEAD_JOINTS; i++)
         x_velocity[i] += head_velocity[i];
     control_task_velocity(control, x_velocity);
@@ -52,22 +48,19 @@ static void turn_head(struct behaviour *behaviour, struct control *control)
 
 static bool coordinate_step(struct behaviour *behaviour, struct control *control)
 {
-    const double *target;
-    bool is_new;
+    const double *target = NULL;
 
-    if (behaviour->progress.phase != REACH_STATUS_T_TRACK) {
-        if (targets_prepare(behaviour, control))
-            control_gather(control, control->config->fixation_frames);
+    switch (targets_step(behaviour, control, &target)) {
+    case TARGETS_PREPARE:
         return true;
-    }
-    target = targets_current(behaviour, control, &is_new);
-    if (!target)
+    case TARGETS_DONE:
         return false;
-    if (is_new)
+    case TARGETS_PRESENT:
         present(behaviour, control, target);
-    control->has_target = true;
-    control->target[0] = control->target[1] = 0;
-    control->target[2] = target[2];
+        break;
+    case TARGETS_PURSUE:
+        break;
+    }
     if (!sight_seen(control->sight, control->now)) {
         targets_refixate(behaviour);
         return true;

@@ -1,6 +1,7 @@
 #include "loop.h"
 
 #include "common/bus.h"
+#include "due_markers.h"
 #include "grid.h"
 #include "realtime.h"
 #include "timing.h"
@@ -28,9 +29,7 @@ struct loop {
     struct tick_outputs outputs;
     struct received_state received; /* newest state taken from the mailbox */
     bool any_state;
-    reach_marker_t pending[TICK_MAX_MARKERS]; /* lockstep: markers that are not due yet */
-    int n_pending;
-    int64_t newest_marker; /* lockstep: exposure of the newest marker consumed, us */
+    struct due_markers due; /* lockstep */
 
     struct timing compute;
     double wakeup_us;
@@ -123,70 +122,27 @@ static void report(struct loop *loop, int64_t now)
     atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);
 }
 
-/* Whether a marker of this exposure was consumed or waits already. */
-static bool is_repeat(const struct loop *loop, int64_t utime)
-{
-    for (int i = 0; i < loop->n_pending; i++)
-        if (loop->pending[i].utime == utime)
-            return true;
-    return utime <= loop->newest_marker;
-}
-
-/* Lockstep: takes in what has come; markers may come ahead of time, again, or out of order. */
-static void collect_markers(struct loop *loop)
-{
-    reach_marker_t marker;
-
-    while (mailbox_take(daemon_bus_markers(loop->bus), &marker))
-        if (loop->n_pending < TICK_MAX_MARKERS && !is_repeat(loop, marker.utime))
-            loop->pending[loop->n_pending++] = marker;
-}
-
-/* Hands the oldest marker up to `due` to the tick. Returns false when none is left. */
-static bool hand_oldest(struct loop *loop, int64_t due)
-{
-    int oldest = -1;
-
-    for (int i = 0; i < loop->n_pending; i++)
-        if (loop->pending[i].utime <= due &&
-            (oldest < 0 || loop->pending[i].utime < loop->pending[oldest].utime))
-            oldest = i;
-    if (oldest < 0)
-        return false;
-    loop->newest_marker = loop->pending[oldest].utime;
-    loop->inputs.marker[loop->inputs.n_markers++] = loop->pending[oldest];
-    loop->pending[oldest] = loop->pending[--loop->n_pending];
-    return true;
-}
-
-/* Lockstep: markers up to the one that is due, no further, so that a run does not depend on how
- * fast vision is; and no less, so that it does not depend on what the bus lost: the simulator asks
- * again for what is missing. Returns whether the one that is due has come. */
-static bool take_due_markers(struct loop *loop, int64_t due)
-{
-    collect_markers(loop);
-    if (loop->newest_marker >= due)
-        return true;
-    for (int i = 0; i < loop->n_pending; i++)
-        if (loop->pending[i].utime == due) {
-            while (hand_oldest(loop, due))
-                ;
-            return true;
-        }
-    return false;
-}
-
 /* Waits for the marker that is due with the state. Returns false when the loop is to end. */
 static bool wait_for_marker(struct loop *loop, int64_t due)
 {
-    loop->inputs.n_markers = 0;
-    while (!take_due_markers(loop, due)) {
+    struct tick_inputs *inputs = &loop->inputs;
+    reach_marker_t marker;
+
+    for (;;) {
+        while (mailbox_take(daemon_bus_markers(loop->bus), &marker))
+            due_markers_add(&loop->due, &marker);
+        if (due_markers_ready(&loop->due, due))
+            break;
         if (ending(loop))
             return false;
         if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
             set_waits(loop, LOOP_WAITS_FOR_MARKER);
     }
     set_waits(loop, LOOP_RUNS);
+    inputs->n_markers = 0;
+    while (inputs->n_markers < TICK_MAX_MARKERS &&
+           due_markers_take(&loop->due, due, &inputs->marker[inputs->n_markers]))
+        inputs->n_markers++;
     return true;
 }
 
@@ -196,10 +152,8 @@ static void step_lockstep(struct loop *loop)
     const reach_robot_state_t *state = &loop->received.state;
     int64_t begin;
 
-    if (loop->any_state && state->utime < loop->inputs.state.utime) {
-        loop->newest_marker = 0; /* the simulator began anew */
-        loop->n_pending = 0;
-    }
+    if (loop->any_state && state->utime < loop->inputs.state.utime)
+        due_markers_init(&loop->due); /* the simulator began anew */
     if (!wait_for_marker(loop, state->vision_due))
         return;
     begin = bus_monotonic_us();

@@ -25,8 +25,8 @@ struct header {
     uint64_t size;     /* of the bytes that follow */
 };
 
-/* Who may touch the buffer: the loop thread in FREE, READ, SAVED and FAILED, else housekeeping. */
-enum stage { FREE, SAVE_ASKED, SAVED, LOAD_ASKED, READ, FAILED };
+/* Who may touch the store: housekeeping in SAVE_ASKED, LOAD_ASKED and REFUSED, else the loop. */
+enum stage { FREE, SAVE_ASKED, SAVED, LOAD_ASKED, READ, REFUSED, FAILED };
 
 struct model_store {
     const char *directory;
@@ -34,6 +34,7 @@ struct model_store {
     size_t capacity;
     size_t size;
     int number;
+    char reason[128]; /* why the learner did not take what was read */
     _Atomic int stage;
 };
 
@@ -85,16 +86,18 @@ bool model_store_begin_load(struct model_store *store, int number)
 enum model_store_result model_store_poll(struct model_store *store, struct learner *learner)
 {
     enum model_store_result result;
-    char reason[128];
 
     switch (atomic_load_explicit(&store->stage, memory_order_acquire)) {
     case SAVED:
         result = MODEL_STORE_DONE;
         break;
     case READ:
-        result = learner_load(learner, store->buffer, store->size, reason, sizeof reason)
-                     ? MODEL_STORE_FAILED
-                     : MODEL_STORE_DONE;
+        if (learner_load(learner, store->buffer, store->size, store->reason,
+                         sizeof store->reason)) { /* housekeeping may log, this thread may not */
+            atomic_store_explicit(&store->stage, REFUSED, memory_order_release);
+            return MODEL_STORE_NOTHING;
+        }
+        result = MODEL_STORE_DONE;
         break;
     case FAILED:
         result = MODEL_STORE_FAILED;
@@ -203,13 +206,15 @@ void model_store_serve(struct model_store *store)
     char path[PATH_MOST];
     const char *wrong = NULL;
 
-    if (stage != SAVE_ASKED && stage != LOAD_ASKED)
+    if (stage != SAVE_ASKED && stage != LOAD_ASKED && stage != REFUSED)
         return;
     snprintf(path, sizeof path, "%s/model-%d.imle", store->directory, store->number);
     if (stage == SAVE_ASKED && write_model(store, path))
         wrong = strerror(errno);
     else if (stage == LOAD_ASKED)
         wrong = read_model(store, path);
+    else if (stage == REFUSED)
+        wrong = store->reason;
     if (wrong)
         log_error("%s: %s", path, wrong);
     else

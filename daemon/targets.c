@@ -26,7 +26,8 @@ void targets_refixate(struct behaviour *behaviour)
     behaviour->progress.phase = REACH_STATUS_T_FIXATE;
 }
 
-bool targets_prepare(struct behaviour *behaviour, struct control *control)
+/* The phases before the first target. */
+static void prepare(struct behaviour *behaviour, struct control *control)
 {
     struct progress *progress = &behaviour->progress;
     double centre[MAX_JOINTS];
@@ -36,31 +37,38 @@ bool targets_prepare(struct behaviour *behaviour, struct control *control)
         if (control_arm_to(control, centre))
             progress->phase = REACH_STATUS_T_FIXATE;
         control_gaze(control, false);
-        return false;
+        return;
     }
     if (control_gaze(control, true) == GAZE_SEARCHING)
         progress->phase = REACH_STATUS_T_SEARCH;
     else
         progress->phase = REACH_STATUS_T_FIXATE;
     if (!sight_fixated(control->sight))
-        return false;
+        return;
+    control_gather(control, control->config->fixation_frames);
     progress->phase = REACH_STATUS_T_TRACK;
-    return true;
 }
 
-const double *targets_current(struct behaviour *behaviour, struct control *control, bool *is_new)
+enum targets_work targets_step(struct behaviour *behaviour, struct control *control,
+                               const double **target)
 {
     struct targets *targets = &behaviour->targets;
     struct progress *progress = &behaviour->progress;
+    bool is_new = targets->deadline == 0;
 
-    *is_new = targets->deadline == 0;
-    if (!*is_new && control->now >= targets->deadline) {
+    if (progress->phase != REACH_STATUS_T_TRACK) {
+        prepare(behaviour, control);
+        return TARGETS_PREPARE;
+    }
+    if (!is_new && control->now >= targets->deadline) {
         progress->done++;
-        *is_new = true;
+        is_new = true;
     }
     if (progress->done >= targets->n)
-        return NULL;
-    if (*is_new)
-        targets->deadline = control->now + targets->period;
-    return targets->target[progress->done];
+        return TARGETS_DONE;
+    *target = targets->target[progress->done];
+    if (!is_new)
+        return TARGETS_PURSUE;
+    targets->deadline = control->now + targets->period;
+    return TARGETS_PRESENT;
 }

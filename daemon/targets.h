@@ -9,13 +9,20 @@
 void targets_start(struct behaviour *behaviour, const reach_request_t *request,
                    struct control *control);
 
-/* The phases before the first target: the arm to the middle of the babbled range when asked for,
- * then fixation, from where equation 14 starts. Returns true in the tick in which it is done. */
-bool targets_prepare(struct behaviour *behaviour, struct control *control);
+/* What a tick of such a behaviour has to do. */
+enum targets_work {
+    TARGETS_PREPARE, /* nothing: the arm still goes to where it starts, or the marker is not fixated
+                      */
+    TARGETS_PRESENT, /* `target` was just presented */
+    TARGETS_PURSUE,  /* `target` is still the one */
+    TARGETS_DONE,    /* all had their time */
+};
 
-/* The target of this tick, which is also the next tick's until its time is over.
- * `is_new` tells that it was just presented. Returns NULL when all had their time. */
-const double *targets_current(struct behaviour *behaviour, struct control *control, bool *is_new);
+/* One tick. First the arm goes to the middle of the babbled range when that was asked for, then
+ * the marker is fixated, from where equation 14 starts, and the pair is gathered. Then one target
+ * after another: *target is it, in px, owned by the behaviour. */
+enum targets_work targets_step(struct behaviour *behaviour, struct control *control,
+                               const double **target);
 
 /* The marker was lost for too long: back to fixation, then on with the present target. */
 void targets_refixate(struct behaviour *behaviour);

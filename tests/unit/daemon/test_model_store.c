@@ -126,6 +126,31 @@ START_TEST(a_damaged_file_is_refused)
 }
 END_TEST
 
+/* The file is whole, but the learner of another configuration does not take it. */
+START_TEST(a_model_of_other_parameters_is_refused)
+{
+    struct bench bench = bench_create();
+    struct bench other = bench_create();
+    char error[128];
+
+    log_open("test", LOG_LEVEL_ERROR - 1);
+    learn_something(&bench);
+    save(&bench);
+    arena_destroy(other.arena);
+    config.alpha = 0.95;
+    other.arena =
+        arena_create(learner_memory(&config) + model_store_memory(learner_memory(&config)));
+    other.learner = learner_create(&config, other.arena, error, sizeof error);
+    other.store = model_store_create(directory, learner_memory(&config), other.arena);
+    ck_assert_int_eq(load(&other), MODEL_STORE_NOTHING); /* the reason is still to be logged */
+    model_store_serve(other.store);
+    ck_assert_int_eq(model_store_poll(other.store, other.learner), MODEL_STORE_FAILED);
+    ck_assert(model_store_begin_load(other.store, 3)); /* free again */
+    arena_destroy(other.arena);
+    clean(&bench);
+}
+END_TEST
+
 START_TEST(without_a_directory_saving_is_refused)
 {
     struct bench bench = bench_create();
@@ -142,6 +167,7 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {what_is_saved_comes_back, a_damaged_file_is_refused,
+                                  a_model_of_other_parameters_is_refused,
                                   without_a_directory_saving_is_refused};
 
     return SUITE_RUN("model_store", tests);
