@@ -16,7 +16,7 @@ from reach.processes import Processes
 from reach.progress import Progress
 from reach.record import read_log
 
-OPTIONS = ["--samples", "4", "--tests", "3", "--period", "0.5"]
+OPTIONS = ["--samples", "3", "--tests", "2", "--period", "0.5"]
 
 
 def demo(out: Path, seed: int) -> dict:
