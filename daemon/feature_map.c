@@ -27,10 +27,12 @@ static void linear_evaluate(const struct feature_map *map, const double *u, doub
     memcpy(phi, u, (size_t)map->n_inputs * sizeof *phi);
 }
 
-static void linear_derivative(const struct feature_map *map, const double *phi, double *dphi)
+static void linear_derivative(const struct feature_map *map, const double *u, const double *phi,
+                              double *dphi)
 {
     int d = map->n_inputs;
 
+    (void)u;
     (void)phi;
     memset(dphi, 0, (size_t)(d * d) * sizeof *dphi);
     for (int i = 0; i < d; i++)
@@ -78,18 +80,27 @@ struct feature_map *feature_map_create(const struct learner_config *config, stru
     return map->ops->prepare(map, arena) == 0 ? map : NULL;
 }
 
+static void scaled(const struct feature_map *map, const double *z, double *u)
+{
+    for (int i = 0; i < map->n_inputs; i++)
+        u[i] = (z[i] - map->reference[i]) * map->per_scale[i];
+}
+
 void feature_map_evaluate(const struct feature_map *map, const double *z, double *phi)
 {
     double u[LEARNER_MAX_INPUTS];
 
-    for (int i = 0; i < map->n_inputs; i++)
-        u[i] = (z[i] - map->reference[i]) * map->per_scale[i];
+    scaled(map, z, u);
     map->ops->evaluate(map, u, phi);
 }
 
-void feature_map_derivative(const struct feature_map *map, const double *phi, double *dphi)
+void feature_map_derivative(const struct feature_map *map, const double *z, const double *phi,
+                            double *dphi)
 {
-    map->ops->derivative(map, phi, dphi);
+    double u[LEARNER_MAX_INPUTS];
+
+    scaled(map, z, u);
+    map->ops->derivative(map, u, phi, dphi);
     for (int k = 0; k < map->n_features; k++)
         for (int i = 0; i < map->n_inputs; i++)
             dphi[k * map->n_inputs + i] *= map->per_scale[i];

@@ -1,11 +1,12 @@
 /* What an expert is linear in: a vector of features phi of the input, behind a small table of
- * functions. The constant is left out: experts are centred, so it needs no coefficient.
+ * functions. A constant is left out: experts are centred, so it needs no coefficient.
  *
  * u = (z - reference) / scale, one number an input.
  *   linear:      phi = u
- *   polynomial:  phi_a = prod_i u_i^a_i / a_i!  for 1 <= |a| <= degree
- * The factorials let one ridge serve all orders (a Taylor series of an amplitude that stays the
- * same with the order). */
+ *   polynomial:  phi_a = exp(-|u|^2 / 2) prod_i u_i^a_i / sqrt(a_i!)  for |a| <= degree
+ * The latter are the leading terms of the Gaussian kernel: over all a, sum phi_a(u) phi_a(v) =
+ * exp(-|u - v|^2 / 2). A regression with one ridge on them is that of a Gaussian process, cut off
+ * at the degree: equally unsure everywhere, and bounded far away. */
 #ifndef REACH_FEATURE_MAP_H
 #define REACH_FEATURE_MAP_H
 
@@ -34,8 +35,9 @@ struct feature_map *feature_map_create(const struct learner_config *config, stru
 /* phi[count] at z[n_inputs]. */
 void feature_map_evaluate(const struct feature_map *map, const double *z, double *phi);
 
-/* d phi / d z at the input whose features are phi: dphi[count * n_inputs], row-major. */
-void feature_map_derivative(const struct feature_map *map, const double *phi, double *dphi);
+/* d phi / d z at z, whose features are phi: dphi[count * n_inputs], row-major. */
+void feature_map_derivative(const struct feature_map *map, const double *z, const double *phi,
+                            double *dphi);
 
 #ifdef __cplusplus
 }

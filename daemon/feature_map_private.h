@@ -6,11 +6,17 @@
 
 #include "daemon/feature_map.h"
 
-/* A monomial is its parent times one more input. Index -1 stands for the constant. */
+/* A monomial is its parent times one more input; the constant is number 0 and has none. */
 struct monomial {
     int16_t parent;
     int16_t variable; /* the input that the parent is multiplied by */
-    double factor;    /* 1 / power of that input in the product */
+    double factor;    /* 1 / root of that input's power in the product */
+};
+
+/* A monomial with one power of an input less. */
+struct lowered_monomial {
+    int index;   /* -1 when there was none to take */
+    double root; /* of the power before */
 };
 
 struct feature_map {
@@ -21,8 +27,7 @@ struct feature_map {
     double reference[LEARNER_MAX_INPUTS];
     double per_scale[LEARNER_MAX_INPUTS]; /* 1 / scale */
     struct monomial *monomials;           /* polynomial: n_features, parents first */
-    int16_t *lowered; /* polynomial: n_features x n_inputs; the index of the monomial with one
-                         power of that input less, or -2 when it has none */
+    struct lowered_monomial *lowered;     /* polynomial: n_features x n_inputs */
 };
 
 struct feature_map_ops {
@@ -32,7 +37,8 @@ struct feature_map_ops {
     int (*prepare)(struct feature_map *map, struct arena *arena);
     void (*evaluate)(const struct feature_map *map, const double *u, double *phi);
     /* d phi / d u; the caller applies the scale. */
-    void (*derivative)(const struct feature_map *map, const double *phi, double *dphi);
+    void (*derivative)(const struct feature_map *map, const double *u, const double *phi,
+                       double *dphi);
 };
 
 extern const struct feature_map_ops feature_map_linear;

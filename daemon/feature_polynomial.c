@@ -1,22 +1,25 @@
-/* Monomials up to a degree. Each is built from a parent by one multiplication, and its derivative
- * by an input is another monomial of the same list: d/du (u^a / a!) = u^(a-1) / (a-1)!. */
+/* Monomials up to a degree under a Gaussian envelope: the leading terms of the Gaussian kernel
+ * (docs/learner.md). Each is built from a parent by one multiplication. With a_i the power of input
+ * i, d phi_a / d u_i = sqrt(a_i) phi_{a - e_i} - u_i phi_a, and phi_{a - e_i} is another monomial
+ * of the same list. */
+#include <math.h>
 #include <string.h>
 
 #include "daemon/feature_map_private.h"
 
-enum { CONSTANT = -1, NOTHING = -2 };
+enum { NOTHING = -1 };
 
-/* Binomial(n_inputs + degree, degree) - 1, or 0 when that is over FEATURE_MAP_MAX. */
+/* Binomial(n_inputs + degree, degree), or 0 when that is over FEATURE_MAP_MAX. */
 static int polynomial_count(int n_inputs, int degree)
 {
     long count = 1;
 
     for (int k = 1; k <= degree; k++) {
         count = count * (n_inputs + k) / k;
-        if (count - 1 > FEATURE_MAP_MAX)
+        if (count > FEATURE_MAP_MAX)
             return 0;
     }
-    return (int)(count - 1);
+    return (int)count;
 }
 
 static size_t monomials_bytes(int n_features)
@@ -26,7 +29,7 @@ static size_t monomials_bytes(int n_features)
 
 static size_t lowered_bytes(int n_features, int n_inputs)
 {
-    return (size_t)n_features * (size_t)n_inputs * sizeof(int16_t);
+    return (size_t)n_features * (size_t)n_inputs * sizeof(struct lowered_monomial);
 }
 
 static size_t polynomial_memory(int n_inputs, int degree)
@@ -42,26 +45,27 @@ static int power_of(const struct feature_map *map, int k, int i)
 {
     int power = 0;
 
-    for (; k != CONSTANT; k = map->monomials[k].parent)
+    for (; k > 0; k = map->monomials[k].parent)
         power += map->monomials[k].variable == i;
     return power;
 }
 
-/* All monomials, order by order. A monomial is multiplied only by its last input or a later one, so
- * that each product comes once. */
+/* All monomials, order by order, the constant first. A monomial is multiplied only by its last
+ * input or a later one, so that each product comes once. */
 static void build_monomials(struct feature_map *map)
 {
-    int n = 0;
-    int order_begin = CONSTANT; /* the order before begins here, and ends at n */
+    int order_begin = 0; /* the order before begins here, and ends at n */
+    int n = 1;
 
+    map->monomials[0] = (struct monomial){NOTHING, NOTHING, 1.0};
     for (int order = 1; order <= map->degree; order++) {
         int order_end = n;
         for (int parent = order_begin; parent < order_end; parent++) {
-            int first = parent == CONSTANT ? 0 : map->monomials[parent].variable;
+            int first = parent == 0 ? 0 : map->monomials[parent].variable;
             for (int i = first; i < map->n_inputs; i++) {
-                int power = 1 + (parent == CONSTANT ? 0 : power_of(map, parent, i));
+                double power = 1 + power_of(map, parent, i);
                 map->monomials[n++] =
-                    (struct monomial){(int16_t)parent, (int16_t)i, 1.0 / (double)power};
+                    (struct monomial){(int16_t)parent, (int16_t)i, 1.0 / sqrt(power)};
             }
         }
         order_begin = order_end;
@@ -71,10 +75,11 @@ static void build_monomials(struct feature_map *map)
 /* The monomial `parent` times input i, known to exist. */
 static int product_of(const struct feature_map *map, int parent, int i)
 {
-    for (int k = 0; k < map->n_features; k++)
-        if (map->monomials[k].parent == parent && map->monomials[k].variable == i)
-            return k;
-    return NOTHING;
+    int k = 1;
+
+    while (map->monomials[k].parent != parent || map->monomials[k].variable != i)
+        k++;
+    return k;
 }
 
 /* One power of input i less: the parent if that input came last, otherwise the same step taken from
@@ -87,13 +92,14 @@ static void build_lowered(struct feature_map *map)
         const struct monomial *monomial = &map->monomials[k];
         for (int i = 0; i < d; i++) {
             int below = NOTHING;
-            if (monomial->variable == i)
+            if (k > 0 && monomial->variable == i)
                 below = monomial->parent;
-            else if (monomial->parent != CONSTANT)
-                below = map->lowered[monomial->parent * d + i];
+            else if (k > 0)
+                below = map->lowered[monomial->parent * d + i].index;
             if (monomial->variable != i && below != NOTHING)
                 below = product_of(map, below, monomial->variable);
-            map->lowered[k * d + i] = (int16_t)below;
+            map->lowered[k * d + i] =
+                (struct lowered_monomial){below, sqrt((double)power_of(map, k, i))};
         }
     }
 }
@@ -111,22 +117,28 @@ static int polynomial_prepare(struct feature_map *map, struct arena *arena)
 
 static void polynomial_evaluate(const struct feature_map *map, const double *u, double *phi)
 {
-    for (int k = 0; k < map->n_features; k++) {
+    double square = 0.0;
+
+    for (int i = 0; i < map->n_inputs; i++)
+        square += u[i] * u[i];
+    phi[0] = exp(-0.5 * square);
+    for (int k = 1; k < map->n_features; k++) {
         const struct monomial *monomial = &map->monomials[k];
-        double parent = monomial->parent == CONSTANT ? 1.0 : phi[monomial->parent];
-        phi[k] = parent * u[monomial->variable] * monomial->factor;
+        phi[k] = phi[monomial->parent] * u[monomial->variable] * monomial->factor;
     }
 }
 
-static void polynomial_derivative(const struct feature_map *map, const double *phi, double *dphi)
+static void polynomial_derivative(const struct feature_map *map, const double *u, const double *phi,
+                                  double *dphi)
 {
-    for (int k = 0; k < map->n_features * map->n_inputs; k++) {
-        int below = map->lowered[k];
-        if (below == NOTHING)
-            dphi[k] = 0.0;
-        else
-            dphi[k] = below == CONSTANT ? 1.0 : phi[below];
-    }
+    int d = map->n_inputs;
+
+    for (int k = 0; k < map->n_features; k++)
+        for (int i = 0; i < d; i++) {
+            const struct lowered_monomial *lowered = &map->lowered[k * d + i];
+            double below = lowered->index == NOTHING ? 0.0 : phi[lowered->index];
+            dphi[k * d + i] = lowered->root * below - u[i] * phi[k];
+        }
 }
 
 const struct feature_map_ops feature_map_polynomial = {

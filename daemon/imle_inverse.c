@@ -71,7 +71,7 @@ static void linearise(struct imle *m, struct search *s)
     const double *psi = part(m->psi, s->expert, (size_t)m->D);
 
     begin_with_gate(m, s);
-    feature_map_derivative(m->map, m->phi, m->dphi);
+    feature_map_derivative(m->map, s->z, m->phi, m->dphi);
     imle_expert_slope(m, s->expert);
     for (int o = 0; o < m->D; o++) {
         const double *slope = m->slope + o * m->d;

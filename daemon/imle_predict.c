@@ -19,7 +19,7 @@ static bool look_at(struct imle *m, const double *z)
     for (int k = 0; k < m->p; k++)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
             return false;
-    feature_map_derivative(m->map, m->phi, m->dphi);
+    feature_map_derivative(m->map, z, m->phi, m->dphi);
     for (int j = 0; j < m->M; j++) {
         m->q[j] = imle_distance(m, j, z);
         m->log_t[j] = imle_log_t(m, j, m->q[j]);

@@ -32,7 +32,7 @@ enum learner_kind {
 /* What an expert is linear in. */
 enum learner_features {
     LEARNER_LINEAR,     /* the inputs themselves: the published algorithm */
-    LEARNER_POLYNOMIAL, /* all monomials of the inputs up to `degree` */
+    LEARNER_POLYNOMIAL, /* monomials up to `degree` under a Gaussian: a truncated kernel */
 };
 
 /* How experts are gathered into solutions. */
@@ -53,7 +53,7 @@ struct learner_config {
     enum learner_features features;       /* LEARNER_LINEAR */
     int degree;                           /* of the polynomial, 1 .. 6; 3 */
     double reference[LEARNER_MAX_INPUTS]; /* c, middle of the range; 0 */
-    double scale[LEARNER_MAX_INPUTS];     /* s, > 0, features see (z-c)/s; 1 */
+    double scale[LEARNER_MAX_INPUTS];     /* s, > 0, features see (z-c)/s: the kernel's width; 1 */
 
     double psi0[LEARNER_MAX_OUTPUTS];  /* Psi0, VARIANCE of an output, > 0 */
     double sigma0[LEARNER_MAX_INPUTS]; /* VARIANCE of an expert's inputs, > 0 */

@@ -29,7 +29,7 @@ static struct feature_map *create(const struct learner_config *config, struct ar
 
 START_TEST(counts_are_binomials)
 {
-    const int cases[][3] = {{1, 1, 1}, {4, 3, 34}, {7, 2, 35}, {7, 4, 329}, {16, 2, 152}};
+    const int cases[][3] = {{1, 1, 2}, {4, 3, 35}, {7, 2, 36}, {7, 4, 330}, {16, 2, 153}};
 
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct learner_config config = polynomial(cases[i][0], cases[i][1]);
@@ -40,25 +40,30 @@ START_TEST(counts_are_binomials)
 }
 END_TEST
 
-/* All monomials of e^(u + v) up to the degree add up to its Taylor polynomial. */
-START_TEST(features_are_taylor_terms)
+/* sum phi(u) phi(v) = exp(-|u|^2 / 2 - |v|^2 / 2) times e^(u v), whose series is cut off. */
+START_TEST(features_are_terms_of_the_gaussian_kernel)
 {
     struct learner_config config = polynomial(2, 6);
     struct arena *arena = NULL;
     struct feature_map *map = create(&config, &arena);
-    const double z[2] = {0.3, -0.8};
+    const double u[2] = {0.3, -0.8};
+    const double v[2] = {0.5, 0.4};
+    double product = u[0] * v[0] + u[1] * v[1];
     double sum = 0.0;
-    double taylor = 0.0;
+    double series = 1.0;
     double term = 1.0;
 
-    feature_map_evaluate(map, z, phi);
+    feature_map_evaluate(map, u, phi);
+    feature_map_evaluate(map, v, up);
     for (int k = 0; k < feature_map_count(&config); k++)
-        sum += phi[k];
+        sum += phi[k] * up[k];
     for (int n = 1; n <= 6; n++) {
-        term *= (z[0] + z[1]) / n;
-        taylor += term;
+        term *= product / n;
+        series += term;
     }
-    ck_assert_double_eq_tol(sum, taylor, 1e-14);
+    double envelope = exp(-0.5 * (u[0] * u[0] + u[1] * u[1] + v[0] * v[0] + v[1] * v[1]));
+    ck_assert_double_eq_tol(sum, envelope * series, 1e-14);
+    ck_assert_double_eq_tol(sum, exp(-0.5 * (0.2 * 0.2 + 1.2 * 1.2)), 1e-6);
     arena_destroy(arena);
 }
 END_TEST
@@ -74,7 +79,7 @@ static void compare_with_differences(const struct learner_config *config)
     for (int i = 0; i < d; i++)
         z[i] = shifted[i] = bed_uniform(-1.0, 1.0);
     feature_map_evaluate(map, z, phi);
-    feature_map_derivative(map, phi, dphi);
+    feature_map_derivative(map, z, phi, dphi);
     for (int i = 0; i < d; i++) {
         shifted[i] = z[i] + 1e-5;
         feature_map_evaluate(map, shifted, up);
@@ -108,7 +113,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         counts_are_binomials,
-        features_are_taylor_terms,
+        features_are_terms_of_the_gaussian_kernel,
         derivatives_match_differences,
     };
 

@@ -24,6 +24,7 @@ static struct learner_config robot_like(enum learner_features features,
     config.clustering = clustering;
     config.psi0[0] = config.psi0[1] = 0.01;
     config.sigma0[0] = config.sigma0[1] = features == LEARNER_LINEAR ? 0.05 : 10.0;
+    config.scale[0] = config.scale[1] = 2.0;
     config.hyper_psi = config.prior_psi = INFINITY;
     config.ridge = 0.001;
     config.p0 = features == LEARNER_LINEAR ? 0.1 : 0.001;
