@@ -125,7 +125,7 @@ int option_set(const struct option_row *row, void *target, const char *const *it
 {
     char *field = (char *)target + row->offset;
 
-    if (is_list != (row->type == OPTION_LIST)) {
+    if (row->type != OPTION_SPREAD && is_list != (row->type == OPTION_LIST)) {
         snprintf(error, error_size,
                  is_list ? "a single value is wanted, not a list" : "a list [a, b, ...] is wanted");
         return -1;
@@ -141,6 +141,7 @@ int option_set(const struct option_row *row, void *target, const char *const *it
         *(double *)(void *)field *= unit_factor(row);
         return 0;
     case OPTION_LIST:
+    case OPTION_SPREAD:
         return set_list(row, (struct option_list *)(void *)field, items, n_items, error,
                         error_size);
     case OPTION_TEXT:
@@ -226,21 +227,22 @@ static int apply_file(struct loading *loading, const char *path, char *error, si
     return result;
 }
 
-static int apply_overrides(struct loading *loading, const char *const *overrides, int n_overrides,
-                           char *error, size_t error_size)
+static int apply_overrides(struct loading *loading, const char *option,
+                           const char *const *overrides, int n_overrides, char *error,
+                           size_t error_size)
 {
     char name[OPTION_MAX_TEXT];
 
     for (int i = 0; i < n_overrides; i++) {
         const char *equals = strchr(overrides[i], '=');
         if (!equals || (size_t)(equals - overrides[i]) >= sizeof name) {
-            snprintf(error, error_size, "'%s': name=value is wanted", overrides[i]);
+            snprintf(error, error_size, "%s '%s': name=value is wanted", option, overrides[i]);
             return -1;
         }
         memcpy(name, overrides[i], (size_t)(equals - overrides[i]));
         name[equals - overrides[i]] = '\0';
         memset(loading->seen_in_file, 0, sizeof loading->seen_in_file);
-        if (apply_text(loading, "--set", name, equals + 1, error, error_size))
+        if (apply_text(loading, option, name, equals + 1, error, error_size))
             return -1;
     }
     return 0;
@@ -249,6 +251,14 @@ static int apply_overrides(struct loading *loading, const char *const *overrides
 int options_load(const struct option_row *table, void *target, const char *const *paths,
                  int n_paths, const char *const *overrides, int n_overrides, char *error,
                  size_t error_size)
+{
+    return options_load_as(table, target, paths, n_paths, "--set", overrides, n_overrides, error,
+                           error_size);
+}
+
+int options_load_as(const struct option_row *table, void *target, const char *const *paths,
+                    int n_paths, const char *override_option, const char *const *overrides,
+                    int n_overrides, char *error, size_t error_size)
 {
     struct loading loading = {.table = table, .target = target};
     const struct option_row *row;
@@ -265,7 +275,7 @@ int options_load(const struct option_row *table, void *target, const char *const
         if (apply_file(&loading, paths[i], error, error_size))
             return -1;
     }
-    if (apply_overrides(&loading, overrides, n_overrides, error, error_size))
+    if (apply_overrides(&loading, override_option, overrides, n_overrides, error, error_size))
         return -1;
     for (row = table; row->name; row++)
         if (!loading.given[row - table]) {

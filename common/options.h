@@ -25,6 +25,7 @@ enum option_type {
     OPTION_INT,    /* field: int */
     OPTION_NUMBER, /* field: double */
     OPTION_LIST,   /* field: struct option_list */
+    OPTION_SPREAD, /* field: struct option_list; a single number, n = 1, stands for every entry */
     OPTION_TEXT,   /* field: char[OPTION_MAX_TEXT] */
     OPTION_CHOICE, /* field: int, the index of the word in `choices` */
 };
@@ -64,6 +65,12 @@ struct option_row {
 int options_load(const struct option_row *table, void *target, const char *const *paths,
                  int n_paths, const char *const *overrides, int n_overrides, char *error,
                  size_t error_size);
+
+/* The same for a program that calls its overrides otherwise: errors name `override_option` where
+ * those of options_load say "--set". */
+int options_load_as(const struct option_row *table, void *target, const char *const *paths,
+                    int n_paths, const char *override_option, const char *const *overrides,
+                    int n_overrides, char *error, size_t error_size);
 
 /* Prints the table as a reference: name, unit, default, range, help. */
 void options_print(const struct option_row *table, FILE *out);

@@ -1,0 +1,37 @@
+/* The learner's parameters as options: names and meanings are those of struct learner_config in
+ * daemon/learner.h, in YAML without a prefix ("degree: 4", "psi0: [1e-4, 1e-4, 9]") or as
+ * "name=value". Defaults are those of learner_config_default(). */
+#ifndef REACH_EVAL_LEARNER_OPTIONS_H
+#define REACH_EVAL_LEARNER_OPTIONS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "daemon/learner.h"
+#include "tools/eval/json.h"
+
+struct learner_sources {
+    enum learner_kind kind;
+    int n_inputs;
+    int n_outputs;
+    const char *const *files; /* YAML, a later one over an earlier one */
+    int n_files;
+    const char *const *params; /* "name=value", over the files */
+    int n_params;
+};
+
+/* Fills and checks a configuration.
+ *   returns 0, or -1 with one line in `error`: file, line, name and reason */
+int learner_options_load(const struct learner_sources *sources, struct learner_config *config,
+                         char *error, size_t error_size);
+
+/* The configuration that ships for a robot with these dimensions, or NULL. */
+const char *learner_options_shipped(enum learner_kind kind, int n_inputs, int n_outputs);
+
+/* Every option: name, meaning, default for these dimensions. */
+void learner_options_print(enum learner_kind kind, int n_inputs, int n_outputs, FILE *out);
+
+/* One entry a parameter; arrays in full, infinity as the text ".inf". */
+void learner_options_to_json(const struct learner_config *config, struct json *json);
+
+#endif

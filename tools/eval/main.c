@@ -1,0 +1,253 @@
+/* reach-eval: teaches a learner from files and measures it, away from any robot. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "daemon/arena.h"
+#include "tools/eval/csv.h"
+#include "tools/eval/learner_options.h"
+#include "tools/eval/model_file.h"
+#include "tools/eval/output_file.h"
+#include "tools/eval/report.h"
+#include "tools/eval/request.h"
+
+enum { EXIT_USAGE = 2 };
+
+/* All that a run holds. */
+struct run {
+    struct request request;
+    struct learner_config config;
+    struct arena *arena;
+    struct learner *learner;
+    struct csv_table train[REQUEST_MOST];
+    struct csv_table sets[REQUEST_MOST];
+    int file;   /* of the sample that is learned next */
+    size_t row; /* in that file */
+    struct durations updates;
+    struct durations predictions;
+    time_t last_progress;
+    struct report report;
+    char error[1024];
+};
+
+static int fail(struct run *run, const char *what, const char *reason)
+{
+    snprintf(run->error, sizeof run->error, "%s: %s", what, reason);
+    return -1;
+}
+
+static int read_config(struct run *run)
+{
+    struct request *request = &run->request;
+    const char *shipped =
+        learner_options_shipped(request->kind, request->n_inputs, request->n_outputs);
+
+    if (request->n_files == 0 && shipped)
+        request->files[request->n_files++] = shipped;
+    return learner_options_load(&(struct learner_sources){request->kind, request->n_inputs,
+                                                          request->n_outputs, request->files,
+                                                          request->n_files, request->params,
+                                                          request->n_params},
+                                &run->config, run->error, sizeof run->error);
+}
+
+static int read_table(struct run *run, const char *path, struct csv_table *table)
+{
+    return csv_read(path, run->request.n_inputs, run->request.n_outputs, table, run->error,
+                    sizeof run->error);
+}
+
+static int read_tables(struct run *run)
+{
+    struct request *request = &run->request;
+    char reason[120];
+    size_t rows = 0;
+
+    for (int i = 0; i < request->n_train; i++) {
+        if (read_table(run, request->train[i], &run->train[i]))
+            return -1;
+        run->report.train_rows[i] = run->train[i].n_rows;
+        rows += run->train[i].n_rows;
+    }
+    for (int i = 0; i < request->n_sets; i++) {
+        if (read_table(run, request->sets[i].path, &run->sets[i]))
+            return -1;
+        if (request->sets[i].is_track && run->sets[i].n_rows < 2)
+            return fail(run, request->sets[i].path, "a track needs two rows");
+    }
+    if (request->n_at == 0)
+        request->at[request->n_at++] = rows;
+    if (request->at[request->n_at - 1] <= rows)
+        return 0;
+    snprintf(reason, sizeof reason, "--at %zu is beyond the %zu training samples",
+             request->at[request->n_at - 1], rows);
+    return fail(run, request->n_train > 0 ? request->train[request->n_train - 1] : "--train",
+                reason);
+}
+
+static int check_outputs(struct run *run)
+{
+    const struct request *request = &run->request;
+
+    if (strcmp(request->json, "-") != 0 &&
+        output_check(request->json, run->error, sizeof run->error))
+        return -1;
+    return request->save ? output_check(request->save, run->error, sizeof run->error) : 0;
+}
+
+static int create_learner(struct run *run)
+{
+    char reason[256];
+
+    run->report.memory = learner_memory(&run->config);
+    run->arena = arena_create(run->report.memory);
+    if (!run->arena)
+        return fail(run, "the learner", "no memory for this capacity");
+    run->learner = learner_create(&run->config, run->arena, reason, sizeof reason);
+    if (!run->learner)
+        return fail(run, "the learner", reason);
+    return run->request.load
+               ? model_file_load(run->request.load, run->learner, run->error, sizeof run->error)
+               : 0;
+}
+
+/* One line on a terminal, overwritten; at most once a second. */
+static void show_progress(struct run *run, size_t done, const char *what)
+{
+    time_t now = time(NULL);
+
+    if (run->request.quiet || !isatty(STDERR_FILENO) || now == run->last_progress)
+        return;
+    run->last_progress = now;
+    fprintf(stderr, "\r\033[K%s: %zu, %d experts", what, done,
+            learner_get_statistics(run->learner).experts);
+}
+
+static void clear_progress(const struct run *run)
+{
+    if (run->last_progress)
+        fputs("\r\033[K", stderr);
+}
+
+static void learn_next(struct run *run)
+{
+    while (run->row == run->train[run->file].n_rows) {
+        run->file++;
+        run->row = 0;
+    }
+    const struct csv_table *table = &run->train[run->file];
+    const double *z = csv_input(table, run->row);
+    const double *x = csv_output(table, run->row);
+    int64_t start = durations_clock();
+    learner_update(run->learner, z, x);
+    durations_add(&run->updates, start);
+    run->row++;
+}
+
+static void score_sets(struct run *run, struct report_result *result)
+{
+    const struct request *request = &run->request;
+
+    for (int i = 0; i < request->n_sets; i++) {
+        struct report_set *set = &result->sets[i];
+        show_progress(run, result->at, request->sets[i].name);
+        if (request->sets[i].is_track)
+            set->track = score_track(run->learner, &run->sets[i], &run->predictions);
+        else
+            set->test = score_test(run->learner, &run->sets[i], &run->predictions);
+    }
+}
+
+static void evaluate(struct run *run)
+{
+    const struct request *request = &run->request;
+    size_t done = 0;
+
+    for (int i = 0; i < request->n_at; i++) {
+        struct report_result *result = &run->report.results[i];
+        for (; done < request->at[i]; done++) {
+            learn_next(run);
+            show_progress(run, done, "samples");
+        }
+        result->at = done;
+        score_sets(run, result);
+        result->statistics = learner_get_statistics(run->learner);
+        result->update = durations_summarise(&run->updates);
+        result->predict = durations_summarise(&run->predictions);
+        durations_clear(&run->updates);
+        durations_clear(&run->predictions);
+        run->report.n_results++;
+        clear_progress(run);
+        if (!request->quiet && strcmp(request->json, "-") != 0)
+            report_print(request, result, stdout);
+    }
+}
+
+static int write_report(struct run *run)
+{
+    struct output_file file;
+
+    if (strcmp(run->request.json, "-") == 0) {
+        report_to_json(&run->report, stdout);
+        return fflush(stdout) == 0 ? 0 : fail(run, "standard output", "cannot be written");
+    }
+    if (output_begin(&file, run->request.json, run->error, sizeof run->error))
+        return -1;
+    report_to_json(&run->report, file.stream);
+    return output_commit(&file, run->error, sizeof run->error);
+}
+
+static int carry_out(struct run *run)
+{
+    if (read_config(run) || check_outputs(run) || read_tables(run) || create_learner(run))
+        return -1;
+    run->report.request = &run->request;
+    run->report.config = &run->config;
+    evaluate(run);
+    if (run->request.save &&
+        model_file_save(run->request.save, run->learner, run->error, sizeof run->error))
+        return -1;
+    return write_report(run);
+}
+
+static void free_run(struct run *run)
+{
+    for (int i = 0; i < REQUEST_MOST; i++) {
+        csv_free(&run->train[i]);
+        csv_free(&run->sets[i]);
+    }
+    durations_free(&run->updates);
+    durations_free(&run->predictions);
+    arena_destroy(run->arena);
+    request_free(&run->request);
+    free(run);
+}
+
+int main(int argc, char **argv)
+{
+    struct run *run = calloc(1, sizeof *run);
+    int code = EXIT_FAILURE;
+
+    if (!run) {
+        fputs("reach-eval: out of memory\n", stderr);
+        return code;
+    }
+    switch (request_read(argc, argv, &run->request)) {
+    case REQUEST_DONE:
+        code = EXIT_SUCCESS;
+        break;
+    case REQUEST_WRONG:
+        code = EXIT_USAGE;
+        break;
+    case REQUEST_READY:
+        if (carry_out(run) == 0)
+            code = EXIT_SUCCESS;
+        else
+            fprintf(stderr, "reach-eval: %s\n", run->error);
+        break;
+    }
+    free_run(run);
+    return code;
+}

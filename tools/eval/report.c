@@ -1,0 +1,170 @@
+#include "tools/eval/report.h"
+
+#include <version.h>
+
+#include "tools/eval/json.h"
+#include "tools/eval/learner_options.h"
+
+static void durations_to_json(const struct durations_summary *d, const char *key, struct json *json)
+{
+    json_object(json, key);
+    json_count(json, "n", d->n);
+    json_number(json, "mean", d->mean);
+    json_number(json, "p50", d->p50);
+    json_number(json, "p99", d->p99);
+    json_number(json, "p999", d->p999);
+    json_number(json, "max", d->max);
+    json_end_object(json);
+}
+
+static void rmse_to_json(const struct score_rmse *rmse, int n_outputs, const char *key,
+                         struct json *json)
+{
+    json_object(json, key);
+    json_count(json, "n", rmse->n);
+    json_numbers(json, "rmse", n_outputs, rmse->component);
+    json_number(json, "mean", rmse->mean);
+    json_end_object(json);
+}
+
+static void jacobian_to_json(const struct score_jacobian *jacobian, struct json *json)
+{
+    json_object(json, "jacobian");
+    json_count(json, "n", jacobian->n);
+    json_number(json, "median", jacobian->median);
+    json_number(json, "mean", jacobian->mean);
+    json_end_object(json);
+}
+
+static void test_to_json(const struct score_test *test, int n_outputs, const char *name,
+                         struct json *json)
+{
+    double n_with[LEARNER_MAX_SOLUTIONS + 1];
+
+    for (int i = 0; i <= LEARNER_MAX_SOLUTIONS; i++)
+        n_with[i] = (double)test->n_with[i];
+    json_object(json, name);
+    json_count(json, "rows", test->n_rows);
+    json_count(json, "unanswered", test->n_unanswered);
+    rmse_to_json(&test->closest, n_outputs, "closest", json);
+    rmse_to_json(&test->strongest, n_outputs, "strongest", json);
+    rmse_to_json(&test->single, n_outputs, "single", json);
+    json_number(json, "solutions", test->mean_solutions);
+    json_numbers(json, "solutions_histogram", LEARNER_MAX_SOLUTIONS + 1, n_with);
+    jacobian_to_json(&test->jacobian, json);
+    json_end_object(json);
+}
+
+static void track_to_json(const struct score_track *track, int n_outputs, const char *name,
+                          struct json *json)
+{
+    json_object(json, name);
+    json_count(json, "rows", track->n_rows);
+    json_count(json, "unanswered", track->n_unanswered);
+    rmse_to_json(&track->followed, n_outputs, "followed", json);
+    rmse_to_json(&track->closest, n_outputs, "closest", json);
+    json_count(json, "wrong", track->n_wrong);
+    json_number(json, "wrong_branch", track->wrong_branch);
+    json_number(json, "solutions", track->mean_solutions);
+    jacobian_to_json(&track->jacobian, json);
+    json_end_object(json);
+}
+
+static void sets_to_json(const struct request *request, const struct report_result *result,
+                         bool tracks, struct json *json)
+{
+    json_object(json, tracks ? "track" : "test");
+    for (int i = 0; i < request->n_sets; i++) {
+        const char *name = request->sets[i].name;
+        if (request->sets[i].is_track != tracks)
+            continue;
+        if (tracks)
+            track_to_json(&result->sets[i].track, request->n_outputs, name, json);
+        else
+            test_to_json(&result->sets[i].test, request->n_outputs, name, json);
+    }
+    json_end_object(json);
+}
+
+static void result_to_json(const struct request *request, const struct report_result *result,
+                           struct json *json)
+{
+    const struct learner_statistics *statistics = &result->statistics;
+
+    json_object(json, NULL);
+    json_count(json, "at", result->at);
+    json_number(json, "experts", statistics->experts);
+    json_count(json, "samples", statistics->samples);
+    json_count(json, "births", statistics->births);
+    json_count(json, "outliers", statistics->outliers);
+    json_count(json, "full", statistics->full);
+    json_count(json, "refused", statistics->refused);
+    durations_to_json(&result->update, "update_us", json);
+    durations_to_json(&result->predict, "predict_us", json);
+    sets_to_json(request, result, false, json);
+    sets_to_json(request, result, true, json);
+    json_end_object(json);
+}
+
+static void sources_to_json(const struct report *report, struct json *json)
+{
+    const struct request *request = report->request;
+
+    json_array(json, "config");
+    for (int i = 0; i < request->n_files; i++)
+        json_text(json, NULL, request->files[i]);
+    json_end_array(json);
+    json_object(json, "parameters");
+    learner_options_to_json(report->config, json);
+    json_end_object(json);
+    json_array(json, "train");
+    for (int i = 0; i < request->n_train; i++) {
+        json_object(json, NULL);
+        json_text(json, "file", request->train[i]);
+        json_count(json, "rows", report->train_rows[i]);
+        json_end_object(json);
+    }
+    json_end_array(json);
+    json_text(json, "load", request->load);
+    json_text(json, "save", request->save);
+}
+
+void report_to_json(const struct report *report, FILE *out)
+{
+    struct json json = {.out = out};
+
+    json_object(&json, NULL);
+    json_text(&json, "program", "reach-eval");
+    json_text(&json, "version", REACH_VERSION);
+    json_text(&json, "learner", request_learner_name(report->request->kind));
+    json_number(&json, "inputs", report->request->n_inputs);
+    json_number(&json, "outputs", report->request->n_outputs);
+    json_count(&json, "memory", report->memory);
+    sources_to_json(report, &json);
+    json_array(&json, "results");
+    for (int i = 0; i < report->n_results; i++)
+        result_to_json(report->request, &report->results[i], &json);
+    json_end_array(&json);
+    json_end_object(&json);
+}
+
+void report_print(const struct request *request, const struct report_result *result, FILE *out)
+{
+    fprintf(out, "%zu samples, %d experts, update %.1f us (p99.9 %.1f), predict %.1f us (%.1f)\n",
+            result->at, result->statistics.experts, result->update.p50, result->update.p999,
+            result->predict.p50, result->predict.p999);
+    for (int i = 0; i < request->n_sets; i++) {
+        const struct score_test *test = &result->sets[i].test;
+        const struct score_track *track = &result->sets[i].track;
+        fprintf(out, "  %-8s ", request->sets[i].name);
+        if (request->sets[i].is_track)
+            fprintf(out, "followed %.5g  closest %.5g  wrong %.3g %%  solutions %.3f\n",
+                    track->followed.mean, track->closest.mean, 100 * track->wrong_branch,
+                    track->mean_solutions);
+        else
+            fprintf(out, "closest %.5g  strongest %.5g  single %.5g  solutions %.3f\n",
+                    test->closest.mean, test->strongest.mean, test->single.mean,
+                    test->mean_solutions);
+    }
+    fflush(out);
+}

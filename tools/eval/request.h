@@ -1,0 +1,53 @@
+/* What the command line of reach-eval asks for. */
+#ifndef REACH_EVAL_REQUEST_H
+#define REACH_EVAL_REQUEST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "daemon/learner.h"
+
+enum { REQUEST_MOST = 64 }; /* of each thing that may be given repeatedly */
+
+/* A file to be predicted, under the name that the report gives it. */
+struct request_set {
+    char name[64];
+    const char *path;
+    bool is_track;
+};
+
+/* Texts are those of argv; `train` entries belong to the request. */
+struct request {
+    enum learner_kind kind;
+    int n_inputs;
+    int n_outputs;
+    int n_files; /* of configuration */
+    const char *files[REQUEST_MOST];
+    int n_params;
+    const char *params[REQUEST_MOST];
+    int n_train;
+    const char *train[REQUEST_MOST];
+    int n_at; /* 0: after all samples */
+    size_t at[REQUEST_MOST];
+    int n_sets;
+    struct request_set sets[REQUEST_MOST];
+    const char *json; /* path, or "-" for standard output */
+    const char *save; /* or NULL */
+    const char *load; /* or NULL */
+    bool quiet;
+};
+
+enum request_result {
+    REQUEST_READY,
+    REQUEST_DONE,  /* help or version was printed */
+    REQUEST_WRONG, /* one line was printed that says what is wrong */
+};
+
+enum request_result request_read(int argc, char **argv, struct request *request);
+
+void request_free(struct request *request);
+
+/* "imle" and so on. */
+const char *request_learner_name(enum learner_kind kind);
+
+#endif
