@@ -1,0 +1,370 @@
+"""reach-eval on generated data whose answers are known, and on every kind of mistake."""
+
+import gzip
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+REACH_EVAL = Path(os.environ["REACH_BUILD_DIR"]) / "bin/reach-eval"
+SOURCE = Path(os.environ["REACH_SOURCE_DIR"])
+
+SLOPE = np.array([[0.8, -0.5, 0.3], [0.2, 0.6, -0.9]])  # D = 2, d = 3
+STEP = np.array([1.0, 0.5])  # what a tool adds
+PARAMETERS = ["--param", "psi0=0.01", "sigma0=10", "ridge=0.003", "hyper_psi=.inf",
+              "prior_psi=.inf", "clustering=leader", "p0=0.001"]  # fmt: skip
+
+
+def samples(n: int, seed: int, offset=(0.0, 0.0)) -> np.ndarray:
+    """Rows of an exactly linear function."""
+    z = np.random.default_rng(seed).uniform(-1, 1, (n, 3))
+    return np.hstack([z, z @ SLOPE.T + offset])
+
+
+def run(*words) -> subprocess.CompletedProcess:
+    command = [REACH_EVAL, *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+class Fixture(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.json = self.folder / "out.json"
+
+    def write(self, name: str, rows, header: str = "") -> Path:
+        """A CSV file; gzip where the name says so."""
+        path = self.folder / name
+        lines = [header] if header else []
+        lines += [",".join(repr(float(v)) for v in row) for row in rows]
+        data = ("\n".join(lines) + "\n").encode()
+        path.write_bytes(gzip.compress(data) if name.endswith(".gz") else data)
+        return path
+
+    def text(self, name: str, content: str) -> Path:
+        path = self.folder / name
+        path.write_text(content)
+        return path
+
+    def words(self, *words) -> list:
+        return ["--learner", "imle", "--inputs", 3, "--outputs", 2, *PARAMETERS,
+                "--json", self.json, *words]  # fmt: skip
+
+    def evaluate(self, *words) -> dict:
+        result = run(*self.words(*words))
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result.stderr)
+        return json.loads(self.json.read_text())
+
+
+class Numbers(Fixture):
+    def two_tools(self) -> list:
+        """Learned: a function, and the same with a step added."""
+        return ["--train", self.write("a.csv", samples(300, 1)),
+                self.write("b.csv.gz", samples(300, 2, STEP))]  # fmt: skip
+
+    def test_errors_are_those_of_the_test_set(self):
+        offset = np.array([0.03, -0.04])
+        train = self.write("train.csv", samples(400, 1))
+        report = self.evaluate(
+            "--train", train,
+            "--test", f"exact={self.write('t.csv', samples(50, 2))}",
+            f"off={self.write('o.csv', samples(50, 3, offset))}",
+        )  # fmt: skip
+        (result,) = report["results"]
+        self.assertEqual((result["at"], result["experts"]), (400, 1))
+        for kind in ("closest", "strongest", "single"):
+            exact, off = (result["test"][name][kind] for name in ("exact", "off"))
+            self.assertLess(exact["mean"], 1e-4)
+            self.assertEqual(off["n"], 50)
+            np.testing.assert_allclose(off["rmse"], abs(offset), atol=1e-4)
+            self.assertAlmostEqual(off["mean"], 0.035, delta=1e-4)
+
+    def test_rmse_is_the_root_of_the_mean_square(self):
+        """Errors of unequal size, which a mean of absolute values would get wrong."""
+        rows = samples(60, 5)
+        errors = np.random.default_rng(6).normal(0, 0.1, (60, 2))
+        rows[:, 3:] += errors
+        report = self.evaluate("--train", self.write("train.csv", samples(400, 1)),
+                               "--test", f"t={self.write('t.csv', rows)}")  # fmt: skip
+        wanted = np.sqrt((errors**2).mean(axis=0))
+        found = report["results"][0]["test"]["t"]["closest"]
+        np.testing.assert_allclose(found["rmse"], wanted, atol=1e-4)
+        self.assertAlmostEqual(found["mean"], wanted.mean(), delta=1e-4)
+
+    def test_two_branches(self):
+        second = samples(40, 9, STEP)
+        report = self.evaluate(*self.two_tools(),
+                               "--test", f"first={self.write('f.csv', samples(40, 8))}",
+                               f"second={self.write('s.csv', second)}")  # fmt: skip
+        test = report["results"][0]["test"]
+        for name in ("first", "second"):
+            self.assertEqual(test[name]["solutions"], 2)
+            self.assertEqual(test[name]["solutions_histogram"][2], 40)
+            self.assertLess(test[name]["closest"]["mean"], 0.01)
+        # At each query one branch is the strongest: the errors of the two sets are the whole step.
+        squares = sum(np.array(test[n]["strongest"]["rmse"]) ** 2 for n in ("first", "second"))
+        self.assertGreater(max(squares), 0.1)
+
+    def test_wrong_branches_are_counted(self):
+        rows = samples(31, 11)
+        rows[:, :3] = 0.01 * np.arange(31)[:, None] * np.ones(3)  # slow: shorter than a step
+        on_second = (np.arange(31) // 10) % 2 == 1  # changes at 10, 20 and 30
+        rows[:, 3:] = rows[:, :3] @ SLOPE.T + np.outer(on_second, STEP)
+        report = self.evaluate(*self.two_tools(),
+                               "--track", f"walk={self.write('w.csv', rows)}")  # fmt: skip
+        track = report["results"][0]["track"]["walk"]
+        self.assertEqual((track["rows"], track["wrong"], track["unanswered"]), (30, 3, 0))
+        self.assertAlmostEqual(track["wrong_branch"], 0.1)
+        wanted = STEP * np.sqrt(3 / 30)
+        np.testing.assert_allclose(track["followed"]["rmse"], wanted, atol=0.005)
+        self.assertLess(track["closest"]["mean"], 0.01)
+
+    def test_jacobians_are_compared_where_a_file_has_them(self):
+        rows = samples(30, 4)
+        true = np.hstack([rows, np.tile(SLOPE.ravel(), (30, 1))])
+        double = np.hstack([rows, np.tile(2 * SLOPE.ravel(), (30, 1))])
+        report = self.evaluate("--train", self.write("train.csv", samples(400, 1)), "--test",
+                               f"true={self.write('t.csv', true)}",
+                               f"double={self.write('d.csv', double)}",
+                               f"none={self.write('n.csv', rows)}")  # fmt: skip
+        test = report["results"][0]["test"]
+        self.assertLess(test["true"]["jacobian"]["median"], 1e-3)
+        self.assertEqual(test["double"]["jacobian"]["n"], 30)
+        for key in ("median", "mean"):
+            self.assertAlmostEqual(test["double"]["jacobian"][key], 0.5, delta=1e-3)
+            self.assertIsNone(test["none"]["jacobian"][key])
+
+    def test_measured_at_every_count(self):
+        report = self.evaluate("--train", self.write("a.csv", samples(50, 1)),
+                               self.write("b.csv", samples(50, 2, STEP)), "--at", "0,10,50,80",
+                               "--test", f"second={self.write('s.csv', samples(20, 3, STEP))}",
+                               )  # fmt: skip
+        results = report["results"]
+        self.assertEqual([r["at"] for r in results], [0, 10, 50, 80])
+        self.assertEqual([r["samples"] + r["outliers"] for r in results], [0, 10, 50, 80])
+        self.assertEqual([r["update_us"]["n"] for r in results], [0, 10, 40, 30])
+        self.assertEqual([r["experts"] for r in results], [0, 1, 1, 2])
+        empty = results[0]["test"]["second"]
+        self.assertEqual((empty["unanswered"], empty["solutions"]), (20, 0))
+        self.assertIsNone(empty["closest"]["mean"])
+        self.assertIsNone(results[0]["update_us"]["p50"])
+        self.assertAlmostEqual(results[2]["test"]["second"]["closest"]["mean"], 0.75, delta=0.01)
+        self.assertLess(results[3]["test"]["second"]["closest"]["mean"], 0.05)
+
+    def test_times_are_ordered(self):
+        report = self.evaluate("--train", self.write("a.csv", samples(500, 1)),
+                               "--test", f"t={self.write('t.csv', samples(300, 2))}")  # fmt: skip
+        for key, n in (("update_us", 500), ("predict_us", 300)):
+            times = report["results"][0][key]
+            self.assertEqual(times["n"], n)
+            self.assertTrue(0 < times["p50"] <= times["p99"] <= times["p999"] <= times["max"])
+
+    def test_header_and_gzip_change_nothing(self):
+        rows = samples(100, 1)
+        found = []
+        for train in (self.write("plain.csv", rows), self.write("packed.csv.gz", rows),
+                      self.write("named.csv", rows, "a,b,c,x,y")):  # fmt: skip
+            test = self.write("t.csv", samples(20, 2))
+            report = self.evaluate("--train", train, "--test", f"t={test}")
+            self.assertEqual(report["train"][0]["rows"], 100)
+            found.append(report["results"][0]["test"])
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0], found[2])
+
+    def test_a_saved_model_is_the_same_model(self):
+        test = ["--test", f"t={self.write('t.csv', samples(30, 3, STEP))}"]
+        model = self.folder / "model"
+        learned = self.evaluate(*self.two_tools(), *test, "--save", model)["results"][0]
+        loaded = self.evaluate("--load", model, *test)["results"][0]
+        self.assertEqual(loaded["at"], 0)
+        for key in ("experts", "samples", "outliers", "test"):
+            self.assertEqual(loaded[key], learned[key])
+        more = self.evaluate("--load", model, "--train", self.folder / "a.csv", "--at", "0,300")
+        self.assertEqual([r["samples"] for r in more["results"]],
+                         [learned["samples"], learned["samples"] + 300])  # fmt: skip
+
+    def test_parameters_are_reported(self):
+        config = self.text("c.yaml", "degree: 2\nfeatures: polynomial\nreference: [1, 2, 3]\n")
+        train = self.write("a.csv", samples(20, 1))
+        report = self.evaluate("--train", train, "--config", config, "--param", "degree=4")
+        parameters = report["parameters"]
+        self.assertEqual((parameters["degree"], parameters["features"]), (4, "polynomial"))
+        self.assertEqual(parameters["reference"], [1, 2, 3])
+        self.assertEqual(parameters["psi0"], [0.01, 0.01])
+        self.assertEqual(parameters["prior_psi"], ".inf")
+        self.assertEqual(report["config"], [str(config)])
+
+    def test_every_parameter_of_the_learner_is_an_option(self):
+        header = (SOURCE / "daemon/learner.h").read_text()
+        body = re.search(r"struct learner_config \{(.*?)\n\};", header, re.S).group(1)
+        body = re.sub(r"/\*.*?\*/", "", body, flags=re.S)
+        fields = set(re.findall(r"(\w+)(?:\[\w+\])?;", body))
+        self.assertIn("gamma_floor", fields)
+        listed = run("--learner", "imle", "--inputs", 3, "--outputs", 2, "--help-options").stdout
+        options = set(re.findall(r"^(\w+) ", listed, re.M))
+        self.assertEqual(fields - {"kind", "n_inputs", "n_outputs"}, options)
+        self.assertRegex(listed, r"hyper_sigma .*\n +default 8\n")  # 2^d
+
+    def test_shipped_configurations_are_taken(self):
+        arm = np.random.default_rng(1).uniform(-1, 1, (30, 10))
+        result = run("--learner", "imle", "--inputs", 7, "--outputs", 3, "--json", self.json,
+                     "--train", self.write("arm.csv", arm))  # fmt: skip
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (config,) = json.loads(self.json.read_text())["config"]
+        self.assertEqual(Path(config).name, "learner-icub.yaml")
+        for path in sorted((SOURCE / "etc").glob("learner-icub*.yaml")):
+            result = run("--learner", "imle", "--inputs", 7, "--outputs", 3, "--json", self.json,
+                         "--config", path, "--train", self.folder / "arm.csv")  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_help_and_version(self):
+        self.assertIn("--track NAME=FILE", run("--help").stdout)
+        self.assertRegex(run("--version").stdout, r"^reach-eval \d+\.\d+\.\d+ \(.+\)\n$")
+
+
+class Mistakes(Fixture):
+    def refused(self, code: int, *words) -> str:
+        """One line, the code, and no report."""
+        result = run(*words)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertFalse(self.json.exists())
+        return result.stderr
+
+    def refused_file(self, name: str, content: str) -> str:
+        return self.refused(1, *self.words("--train", self.text(name, content)))
+
+    def test_rows(self):
+        good = "1,2,3,4,5\n"
+        for content, where, reason in (
+            (good + "1,2,3,4\n", ":2: ", "4 columns, the lines before have 5"),
+            (good + "1,2,3,4,5,6\n", ":2: ", "6 columns"),
+            (good + good + "1,2,nan,4,5\n", ":3: ", "column 3: 'nan' is not a finite number"),
+            (good + "1,2,3,inf,5\n", ":2: ", "column 4: 'inf'"),
+            (good + "1,2,3,4,five\n", ":2: ", "column 5: 'five'"),
+            (good + "1,2,3,4,\n", ":2: ", "column 5: ''"),
+            (good + "\n" + good, ":2: ", "the line is empty"),
+            ("a,b,c,4,e\n" + good, ":1: ", "column 1: 'a'"),
+            ("a,b,c,d,e\n", ":2: ", "no row of numbers"),
+            ("", ":1: ", "no row of numbers"),
+            ("1,2,3,4\n", ":1: ", "4 columns; wanted: 5 (3 inputs, 2 outputs), or 11 with the"),
+            ("a,b,c,d\n" + good, ":1: ", "4 columns; wanted: 5"),
+            ("1," * 300 + "\n", ":1: ", "256 columns or more"),
+            ("1" * 70000 + "\n", ":1: ", "the line is too long"),
+        ):
+            error = self.refused_file("bad.csv", content)
+            self.assertIn(f"{self.folder}/bad.csv{where}", error)
+            self.assertIn(reason, error)
+
+    def test_files(self):
+        good = self.write("good.csv", samples(10, 1))
+        error = self.refused(1, *self.words("--train", self.folder / "none.csv"))
+        self.assertIn("none.csv: No such file", error)
+        self.assertIn("directory", self.refused(1, *self.words("--train", self.folder)))
+        packed = gzip.compress("".join(f"{i},2,3,4,5\n" for i in range(2000)).encode())
+        (self.folder / "cut.csv.gz").write_bytes(packed[: len(packed) // 2])
+        error = self.refused(1, *self.words("--train", self.folder / "cut.csv.gz"))
+        self.assertRegex(error, r"cut\.csv\.gz:\d+: ")
+        (self.folder / "bad.csv.gz").write_bytes(packed[:-8] + bytes(8))
+        error = self.refused(1, *self.words("--train", self.folder / "bad.csv.gz"))
+        self.assertRegex(error, r"bad\.csv\.gz:\d+: the compressed file is damaged")
+        error = self.refused(1, *self.words("--train", f"{good},{self.folder}/x.csv"))
+        self.assertIn("x.csv: No such file", error)
+        error = self.refused(1, *self.words("--train", good, "--test", f"t={self.folder}/t.csv"))
+        self.assertIn("t.csv: No such file", error)
+        one = self.write("one.csv", samples(1, 1))
+        error = self.refused(1, *self.words("--train", good, "--track", f"t={one}"))
+        self.assertIn("one.csv: a track needs two rows", error)
+
+    def test_too_few_samples(self):
+        good = self.write("good.csv", samples(10, 1))
+        error = self.refused(1, *self.words("--train", good, "--at", "5,11"))
+        self.assertIn("good.csv: --at 11 is beyond the 10 training samples", error)
+
+    def test_parameters(self):
+        train = ["--train", self.write("good.csv", samples(10, 1))]
+        for words, reason in (
+            (["--param", "speed=1"], "--param:1: speed: unknown option"),
+            (["--param", "degree=two"], "--param:1: degree: 'two' is not a number"),
+            (["--param", "degree"], "'degree': name=value is wanted"),
+            (["--param", "psi0=[1, 2, 3]"], "psi0 has 3 entries; wanted: 2, or one number"),
+            (["--param", "alpha=0.5"], "alpha is 0.5: must be between"),
+            (["--param", "clustering=none"], "'none' is not one of published|split|leader"),
+            (["--config", self.folder / "no.yaml"], "no.yaml: No such file"),
+            (["--config", self.text("bad.yaml", "degree: 2\nkind: imle\n")],
+             "bad.yaml:2: kind: unknown option"),
+            (["--config", self.text("twice.yaml", "degree: 2\ndegree: 3\n")],
+             "twice.yaml:2: degree: given twice"),
+        ):  # fmt: skip
+            self.assertIn(reason, self.refused(1, *self.words(*train, *words)))
+        error = self.refused(1, "--learner", "imle", "--inputs", 3, "--outputs", 2, *train,
+                             "--json", self.json)  # fmt: skip
+        self.assertIn("psi0 must be given", error)
+
+    def test_models(self):
+        train = ["--train", self.write("good.csv", samples(30, 1))]
+        model = self.folder / "model"
+        self.assertEqual(run(*self.words(*train, "--save", model)).returncode, 0)
+        self.json.unlink()
+        whole = model.read_bytes()
+        for content, reason in (
+            (whole[:-1], "cut short"),
+            (whole[:20], "cut short"),
+            (whole[:300] + b"x" + whole[301:], "checksum"),
+            (b"x" * 1000, "not a saved learner"),
+        ):
+            (self.folder / "bad").write_bytes(content)
+            error = self.refused(1, *self.words(*train, "--load", self.folder / "bad"))
+            self.assertIn(f"{self.folder}/bad: ", error)
+            self.assertIn(reason, error)
+        error = self.refused(1, *self.words(*train, "--param", "ridge=1", "--load", model))
+        self.assertIn("model: saved with other parameters", error)
+        error = self.refused(1, *self.words(*train, "--load", self.folder / "none"))
+        self.assertIn("none: No such file", error)
+
+    def test_outputs_that_cannot_be(self):
+        train = ["--train", self.write("good.csv", samples(30, 1))]
+        for option in ("--save", "--json"):
+            error = self.refused(1, *self.words(*train, option, self.folder / "no/where"))
+            self.assertIn("no/where: No such file", error)
+            error = self.refused(1, *self.words(*train, option, self.folder))
+            self.assertIn("is not a file", error)
+
+    def test_wrong_usage(self):
+        train = ["--train", self.write("good.csv", samples(10, 1))]
+        for words, reason in (
+            (["--fly"], "unrecognized option"),
+            (["--learner", "none"], "unknown learner 'none'"),
+            (["--inputs", "0"], "--inputs: a whole number from 1 to 16"),
+            (["--inputs", "17"], "--inputs: a whole number from 1 to 16"),
+            (["--outputs", "9"], "--outputs: a whole number from 1 to 8"),
+            (["--outputs", "two"], "--outputs: a whole number"),
+            (["--at", "10,5"], "--at: numbers must grow"),
+            (["--at", "5,5"], "--at: numbers must grow"),
+            (["--at", "ten"], "--at: whole numbers"),
+            (["--at", "-1"], "--at: whole numbers"),
+            (["--test", "name"], "--test: NAME=FILE is wanted, not 'name'"),
+            (["--track", "=x"], "--track: NAME=FILE is wanted"),
+            (["--test", "a=x", "a=y"], "the name a is given twice"),
+            (["--train", "a,,b"], "a file's name is missing"),
+            (["--quiet", "word"], "unexpected word 'word'"),
+        ):
+            self.assertIn(reason, self.refused(2, *self.words(*train, *words)))
+        self.assertIn("--learner is missing", self.refused(2, "--inputs", 3))
+        start = ["--learner", "imle"]
+        self.assertIn("--inputs is missing", self.refused(2, *start, "--outputs", 2))
+        start += ["--inputs", 3]
+        self.assertIn("--outputs is missing", self.refused(2, *start))
+        start += ["--outputs", 2]
+        self.assertIn("--train is missing", self.refused(2, *start, "--json", self.json))
+        self.assertIn("--json is missing", self.refused(2, *start, *train))
+
+
+if __name__ == "__main__":
+    unittest.main()
