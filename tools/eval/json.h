@@ -7,6 +7,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { JSON_MOST_NESTED = 16 };
 
 /* Begin with {.out = file}. */
@@ -28,4 +32,7 @@ void json_count(struct json *json, const char *key, size_t value);
 void json_bool(struct json *json, const char *key, bool value);
 void json_numbers(struct json *json, const char *key, int n, const double *values);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -5,6 +5,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { OUTPUT_LONGEST_PATH = 1024 };
 
 struct output_file {
@@ -24,4 +28,7 @@ int output_begin(struct output_file *file, const char *path, char *error, size_t
 /* Puts what was written in place. On failure nothing is left behind. */
 int output_commit(struct output_file *file, char *error, size_t error_size);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

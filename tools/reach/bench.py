@@ -1,0 +1,108 @@
+"""`./run bench`: what the learner costs, as a table and a picture; build/bin/reach-bench measures.
+
+What remains in the folder: bench.json (also copied to --json), table.md, cost.png.
+"""
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from .figures import COLOURS, PAPER
+from .programs import BINARIES, ROOT
+
+COLUMNS = ("ours", "textbook", "lwpr")
+
+
+def _times(row: dict, who: str) -> str:
+    """Median / 99.9th percentile / greatest."""
+    times = row[f"{who}_us"]
+    return " / ".join(f"{times[k]:,.0f}" for k in ("p50", "p999", "max")) if times else ""
+
+
+def _ratio(value: float | None) -> str:
+    return "" if value is None else f"{value:.1f}" if value < 10 else f"{value:.0f}"
+
+
+def table(rows: list[dict]) -> str:
+    """Markdown, a line for each call of each case."""
+    lines = [
+        "| call | d | experts | ours | textbook | LWPR | faster: p50 / p99.9 | streaming"
+        " | solutions |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        faster = " / ".join(filter(None, (_ratio(row["ratio_p50"]), _ratio(row["ratio_p999"]))))
+        streaming = f"{row['stream_us']:,.0f} ({row['bytes'] / 2**20:.1f} MB)"
+        lines.append(
+            f"| {row['name']} | {row['d']} | {row['experts']} | {_times(row, 'ours')}"
+            f" | {_times(row, 'textbook')} | {_times(row, 'lwpr')} | {faster} | {streaming}"
+            f" | {row['solutions']:.1f} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def _curve(axis, rows: list[dict], who: str, colour: str) -> None:
+    known = [row for row in rows if row[f"{who}_us"]]
+    experts = [row["experts"] for row in known]
+    for key, style in (("p50", "o-"), ("p999", "^--")):
+        name = {"p50": "median", "p999": "99.9 %"}[key]
+        values = [row[f"{who}_us"][key] for row in known]
+        axis.plot(experts, values, style, color=colour, markersize=4, label=f"{who}, {name}")
+
+
+def picture(rows: list[dict]) -> Figure:
+    """Cost against experts, linear ones, with the bound of reading their bytes once."""
+    figure = Figure(figsize=(9.0, 7.0), layout="constrained")
+    axes = figure.subplots(2, 2, squeeze=False)
+    for i, d in enumerate((7, 4)):
+        for k, call in enumerate(("update", "predict")):
+            axis = axes[i][k]
+            here = [row for row in rows if row["d"] == d and row["name"] == call]
+            for who, colour in zip(COLUMNS, (COLOURS["hand"], COLOURS["tool"], "#3c8040"),
+                                   strict=True):  # fmt: skip
+                if any(row[f"{who}_us"] for row in here):
+                    _curve(axis, here, who, colour)
+            axis.plot([row["experts"] for row in here], [row["stream_us"] for row in here], ":",
+                      color=PAPER, label="reading the experts once")  # fmt: skip
+            axis.set(xscale="log", yscale="log", title=f"{call}, d = {d}, D = 3",
+                     xlabel="experts", ylabel="µs")  # fmt: skip
+    axes[0][0].legend(fontsize=8)
+    return figure
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("--json", type=Path, help="write the rows here, too")
+    add("--out", type=Path, default=ROOT / "out/bench", help="folder of the results")
+    add("--calls", type=int, default=4000, help="updates and predictions of each case")
+    add("--only", default="", help="only cases whose label holds this, such as 'linear d=7'")
+    add("--from", dest="source", type=Path, help="do not measure: draw the rows of this file")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    result = options.out / "bench.json"
+    if options.source:
+        shutil.copyfile(options.source, result)
+    else:
+        command = [BINARIES / "reach-bench", "--json", result, "--only", options.only,
+                   "--calls", str(options.calls)]  # fmt: skip
+        if subprocess.run(command).returncode:
+            return 1
+    rows = json.loads(result.read_text())
+    if options.json and options.json.resolve() != result.resolve():
+        shutil.copyfile(result, options.json)
+    text = table(rows)
+    (options.out / "table.md").write_text(text)
+    picture(rows).savefig(options.out / "cost.png", dpi=140)
+    print("Microseconds on one core: median / 99.9th percentile / greatest.\n\n" + text)
+    print(f"in {options.out}: bench.json, table.md, cost.png")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
