@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/feature_map_private.h"
 
 enum { NOTHING = -1 };
@@ -121,7 +122,7 @@ static void polynomial_evaluate(const struct feature_map *map, const double *u, 
 
     for (int i = 0; i < map->n_inputs; i++)
         square += u[i] * u[i];
-    phi[0] = exp(-0.5 * square);
+    phi[0] = elementary_exp(-0.5 * square);
     for (int k = 1; k < map->n_features; k++) {
         const struct monomial *monomial = &map->monomials[k];
         phi[k] = phi[monomial->parent] * u[monomial->variable] * monomial->factor;

@@ -2,15 +2,10 @@
 
 #include <math.h>
 
+#include "daemon/elementary.h"
+
 /* Enough for any dof that a mixture can have; both expansions stop by themselves well before. */
 enum { MOST_TERMS = 10000, BISECTIONS = 200 };
-
-static double log_gamma(double x)
-{
-    int sign = 0;
-
-    return lgamma_r(x, &sign);
-}
 
 /* Regularised lower incomplete gamma function by its power series; for x < a + 1. */
 static double lower_series(double a, double x)
@@ -22,7 +17,7 @@ static double lower_series(double a, double x)
         term *= x / (a + n);
         sum += term;
     }
-    return sum * exp(a * log(x) - x - log_gamma(a));
+    return sum * elementary_exp(a * elementary_log(x) - x - elementary_log_gamma(a));
 }
 
 /* The upper one by its continued fraction (Legendre's, evaluated forward); for x >= a + 1. */
@@ -45,7 +40,7 @@ static double upper_fraction(double a, double x)
         if (fabs(d * c - 1.0) < 1e-16)
             break;
     }
-    return fraction * exp(a * log(x) - x - log_gamma(a));
+    return fraction * elementary_exp(a * elementary_log(x) - x - elementary_log_gamma(a));
 }
 
 double chi2_cdf(double dof, double x)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 #include "daemon/imle_triangle.h"
 
@@ -23,7 +24,7 @@ double imle_log_t(const struct imle *m, int j, double q)
 {
     const struct imle_gate *gate = &m->gate[j];
 
-    return gate->log_norm - gate->exponent * log1p(q / gate->a);
+    return gate->log_norm - gate->exponent * elementary_log1p(q / gate->a);
 }
 
 void imle_expert_output(const struct imle *m, int j, double *xhat)
@@ -65,7 +66,7 @@ double imle_log_outlier_input(const struct imle *m)
     double value = m->log_c_input;
 
     for (int i = 0; i < m->d; i++)
-        value -= 0.5 * log(m->sigma_bar[i]);
+        value -= 0.5 * elementary_log(m->sigma_bar[i]);
     return value;
 }
 
@@ -74,6 +75,6 @@ double imle_log_outlier_joint(const struct imle *m)
     double value = imle_log_outlier_input(m) - m->log_c_input + m->log_c_joint;
 
     for (int i = 0; i < m->D; i++)
-        value -= 0.5 * log(m->psi_bar[i]);
+        value -= 0.5 * elementary_log(m->psi_bar[i]);
     return value;
 }

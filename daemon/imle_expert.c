@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 #include "daemon/imle_triangle.h"
 
@@ -18,13 +19,6 @@ static const double birth_scatter = 1e-6;
 static double *at(double *array, int expert, size_t size)
 {
     return array + (size_t)expert * size;
-}
-
-static double log_gamma(double x)
-{
-    int sign = 0;
-
-    return lgamma_r(x, &sign);
 }
 
 /* Diagonal of a packed triangle: entry (i, i). */
@@ -57,12 +51,12 @@ static void refresh_densities(struct imle *m, int j)
 
     gate->a = (weight + 1.0) / weight * (s->prior_sigma + s->S + m->d + extra);
     gate->exponent = 0.5 * (dof + m->d);
-    gate->log_norm = gate->log_det + log_gamma(gate->exponent) - log_gamma(0.5 * dof) +
-                     0.5 * m->d * log(2.0 / gate->a);
-    gate->log_S = log(s->S);
+    gate->log_norm = gate->log_det + elementary_log_gamma_ratio(0.5 * dof, 0.5 * m->d) +
+                     0.5 * m->d * elementary_log(2.0 / gate->a);
+    gate->log_S = elementary_log(s->S);
     gate->half_log_psi = 0.0;
     for (int i = 0; i < m->D; i++)
-        gate->half_log_psi += 0.5 * log(psi[i]);
+        gate->half_log_psi += 0.5 * elementary_log(psi[i]);
 }
 
 /* From G with Sigma^-1 = G' G: its determinant and the diagonal of the product. */
@@ -75,7 +69,7 @@ static void refresh_precision(struct imle *m, int j)
     for (int i = 0; i < m->d; i++) {
         const double *column = root + triangle_column(m->d, i);
         precision[i] = triangle_dot(m->d - i, column, column);
-        m->gate[j].log_det += log(column[0]);
+        m->gate[j].log_det += elementary_log(column[0]);
     }
 }
 
@@ -164,7 +158,8 @@ static double decay(double H, double h, double alpha)
 {
     if (alpha >= 1.0)
         return 1.0;
-    return (pow(H + h, alpha) - h) / pow(H, alpha);
+    double shrink = elementary_exp(-alpha * elementary_log(H));
+    return elementary_exp(alpha * elementary_log1p(h / H)) - h * shrink;
 }
 
 /* The gating's scatter becomes delta times itself, plus that of a point of weight h; `weight` is

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 #include "daemon/imle_triangle.h"
 
@@ -36,12 +37,12 @@ static int weigh_members(struct imle *m, struct fusion *fusion, double log_outli
     for (int a = 0; a < m->n_answers; a++)
         if (m->answers[a].cluster == fusion->cluster)
             fusion->scale = fmax(fusion->scale, m->answers[a].log_t);
-    fusion->W = fmin(exp(log_outlier - fusion->scale), farthest);
+    fusion->W = fmin(elementary_exp(log_outlier - fusion->scale), farthest);
     for (int a = 0; a < m->n_answers; a++) {
         struct imle_answer *answer = &m->answers[a];
         if (answer->cluster != fusion->cluster)
             continue;
-        answer->t = exp(answer->log_t - fusion->scale);
+        answer->t = elementary_exp(answer->log_t - fusion->scale);
         fusion->W += answer->t;
         members++;
     }
@@ -52,10 +53,10 @@ static int weigh_members(struct imle *m, struct fusion *fusion, double log_outli
 static double cluster_weight(const struct imle *m, const struct fusion *fusion, double log_outlier)
 {
     double inside = 0.0;
-    double all = fmin(exp(log_outlier - fusion->scale), farthest);
+    double all = fmin(elementary_exp(log_outlier - fusion->scale), farthest);
 
     for (int a = 0; a < m->n_answers; a++) {
-        double t = fmin(exp(m->answers[a].log_t - fusion->scale), farthest);
+        double t = fmin(elementary_exp(m->answers[a].log_t - fusion->scale), farthest);
         all += t;
         inside += m->answers[a].cluster == fusion->cluster ? t : 0.0;
     }

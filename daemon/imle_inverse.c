@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_chi2.h"
 #include "daemon/imle_private.h"
 #include "daemon/imle_triangle.h"
@@ -139,7 +140,7 @@ static double log_weight(const struct imle *m, const struct search *s)
     if (triangle_factor(m->d, L) != 0)
         return -INFINITY;
     for (int i = 0; i < m->d; i++)
-        log_det += log(L[triangle_column(m->d, i)]);
+        log_det += elementary_log(L[triangle_column(m->d, i)]);
     return gate->log_det - log_det - gate->half_log_psi - 0.5 * s->cost;
 }
 
@@ -214,7 +215,7 @@ int imle_predict_inverse(struct imle *m, const double *x, struct learner_inverse
         if (!(below < negligible))
             break;
         seek(m, &s, x);
-        gather(m, &s, exp(-below), threshold, C, inverse);
+        gather(m, &s, elementary_exp(-below), threshold, C, inverse);
     }
     return inverse->n_solutions;
 }

@@ -3,6 +3,7 @@
  */
 #include <math.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 
 /* Index a comes before b: by key, then by age. */
@@ -46,7 +47,8 @@ static void sort_by_precision(struct imle *m)
     for (int a = 0; a < m->n_answers; a++) {
         const struct imle_answer *answer = &m->answers[a];
         m->order[a] = a;
-        m->log_h[a] = 0.5 * m->D * log(answer->spread) + m->gate[answer->expert].half_log_psi;
+        m->log_h[a] =
+            0.5 * m->D * elementary_log(answer->spread) + m->gate[answer->expert].half_log_psi;
     }
     imle_sort_order(m, m->n_answers);
 }

@@ -1,6 +1,7 @@
 /* One sample: is it known, whose is it, what do they learn from it (paper section 3). */
 #include <math.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 
 /* Experts whose share is below exp(-this) of what decides are not looked at closely. */
@@ -39,15 +40,16 @@ static bool is_outlier(struct imle *m, const double *x)
 {
     if (m->M == 0)
         return true;
-    double threshold = imle_log_outlier_joint(m) - log(m->M);
+    double threshold = imle_log_outlier_joint(m) - elementary_log(m->M);
     double sum = 0.0;
     for (int j = 0; j < m->M && sum < 1.0; j++) {
         double bound = m->log_t[j] - m->gate[j].half_log_psi;
-        if (bound < threshold - log(m->M) - negligible)
+        if (bound < threshold - elementary_log(m->M) - negligible)
             continue;
         double inflation = 1.0 + imle_expert_leverage(m, j) + 1.0 / m->strengths[j].S;
-        double log_p = bound - 0.5 * m->D * log(inflation) - 0.5 * misfit(m, j, x) / inflation;
-        sum += exp(fmin(log_p - threshold, 1.0));
+        double log_p =
+            bound - 0.5 * m->D * elementary_log(inflation) - 0.5 * misfit(m, j, x) / inflation;
+        sum += elementary_exp(fmin(log_p - threshold, 1.0));
     }
     return sum < 1.0;
 }
@@ -88,9 +90,9 @@ static void learn_shares(struct imle *m, const double *z, const double *x, int n
     double sum = 0.0;
 
     for (int j = 0; j < m->M; j++)
-        sum += exp(m->log_h[j] - largest);
+        sum += elementary_exp(m->log_h[j] - largest);
     for (int j = 0; j < m->M; j++) {
-        double h = exp(m->log_h[j] - largest) / sum;
+        double h = elementary_exp(m->log_h[j] - largest) / sum;
         if (j == newborn)
             h = fmax(h, 1e-3);
         if (h > m->config.skip)

@@ -2,6 +2,7 @@
  * averaged into one solution (paper section 3, multi-valued prediction). */
 #include <math.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 
 /* An expert whose weight is below exp(-this) of the largest changes nothing in double precision. */
@@ -72,7 +73,7 @@ static void gather_published(struct imle *m, double largest, double outlier)
     m->n_answers = 0;
     for (int j = 0; j < m->M; j++)
         if (m->log_t[j] >= largest - negligible)
-            add_answer(m, j, exp(m->log_t[j] - largest));
+            add_answer(m, j, elementary_exp(m->log_t[j] - largest));
     for (int k = 0; k < m->n_answers; k++)
         W += m->answers[k].t;
     for (int k = 0; k < m->n_answers; k++)
@@ -91,9 +92,9 @@ static void gather_by_distance(struct imle *m, double largest)
         double far = kappa * (nearest - log_tau(m, j));
         if (far > negligible)
             continue;
-        add_answer(m, j, exp(m->log_t[j] - largest));
+        add_answer(m, j, elementary_exp(m->log_t[j] - largest));
         struct imle_answer *answer = &m->answers[m->n_answers - 1];
-        answer->spread = (1.0 + answer->gamma) * exp(far);
+        answer->spread = (1.0 + answer->gamma) * elementary_exp(far);
     }
 }
 
@@ -130,7 +131,7 @@ int imle_predict(struct imle *m, const double *z, struct learner_prediction *pre
         return 0;
     double largest = largest_log_t(m);
     double log_outlier = imle_log_outlier_input(m);
-    int n = cluster(m, largest, fmin(exp(log_outlier - largest), farthest));
+    int n = cluster(m, largest, fmin(elementary_exp(log_outlier - largest), farthest));
     for (int k = 0; k < n; k++)
         imle_fuse(m, z, k, log_outlier, &prediction->solution[k]);
     sort_solutions(prediction->solution, n);
@@ -143,7 +144,7 @@ int imle_predict_single(struct imle *m, const double *z, struct learner_solution
         return 0;
     double largest = largest_log_t(m);
     double log_outlier = imle_log_outlier_input(m);
-    gather_published(m, largest, fmin(exp(log_outlier - largest), farthest));
+    gather_published(m, largest, fmin(elementary_exp(log_outlier - largest), farthest));
     imle_fuse(m, z, 0, log_outlier, solution);
     return 1;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "daemon/elementary.h"
 #include "daemon/imle_chi2.h"
 #include "daemon/imle_private.h"
 
@@ -59,12 +60,14 @@ static void em_iteration(struct imle *m, struct centers *centers)
         for (int k = 0; k < before.n; k++)
             nearest[a] = fmin(nearest[a], deviation(m, &m->answers[a], before.x[k]));
         for (int k = 0; k < before.n; k++)
-            sum[a] += exp(-0.5 * (deviation(m, &m->answers[a], before.x[k]) - nearest[a]));
+            sum[a] +=
+                elementary_exp(-0.5 * (deviation(m, &m->answers[a], before.x[k]) - nearest[a]));
     }
     for (int k = 0; k < before.n; k++) {
         for (int a = 0; a < m->n_answers; a++)
             probability[a] =
-                exp(-0.5 * (deviation(m, &m->answers[a], before.x[k]) - nearest[a])) / sum[a];
+                elementary_exp(-0.5 * (deviation(m, &m->answers[a], before.x[k]) - nearest[a])) /
+                sum[a];
         move_center(m, centers, k, probability);
     }
 }

@@ -1,6 +1,7 @@
 # The learner, a library of its own: the daemon, the benches and the tests link it.
 add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/arena.c
+  ${CMAKE_CURRENT_LIST_DIR}/elementary.c
   ${CMAKE_CURRENT_LIST_DIR}/learner.c
   ${CMAKE_CURRENT_LIST_DIR}/learner_config.c
   ${CMAKE_CURRENT_LIST_DIR}/learner_null.c
