@@ -57,6 +57,16 @@ Case polynomial(const char *kind, int degree)
     return c;
 }
 
+#ifdef REACH_BENCH_TICK
+// The whole control step; its stream is its own, see tick.c.
+Case tick(int experts)
+{
+    Case c = linear(4, experts, 0.01, 0, 0);
+    c.kind = "tick";
+    return c;
+}
+#endif
+
 } // namespace
 
 std::vector<Case> all_cases()
@@ -72,5 +82,8 @@ std::vector<Case> all_cases()
         linear(4, 1000, 0.002, 5000, 1.0),
         polynomial("cubic", 3),
         polynomial("quartic", 4),
+#ifdef REACH_BENCH_TICK
+        tick(1000),
+#endif
     };
 }

@@ -8,7 +8,7 @@
 #include "daemon/learner.h"
 
 struct Case {
-    std::string kind; // "linear", "cubic", "quartic": what an expert is
+    std::string kind; // "linear", "cubic", "quartic": what an expert is; "tick": the daemon
     int d;
     int experts;          // learn until there are as many
     int most_samples;     // or until so many were learned

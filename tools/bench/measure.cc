@@ -7,6 +7,9 @@
 
 #include "tools/bench/arm.h"
 #include "tools/bench/rival.h"
+#ifdef REACH_BENCH_TICK
+#include "tools/bench/tick.h"
+#endif
 
 namespace
 {
@@ -194,6 +197,28 @@ Row make_row(const Case &c, const char *call, int calls, const Field &field)
     return row;
 }
 
+#ifdef REACH_BENCH_TICK
+std::vector<Row> measure_tick(const Case &c, int calls)
+{
+    char error[512];
+    durations times{};
+    Row row{};
+    if (tick_bench(c.experts, calls, &times, error, sizeof error)) {
+        durations_free(&times);
+        throw std::runtime_error(error);
+    }
+    row.name = "tick";
+    row.d = c.d;
+    row.D = D;
+    row.experts = c.experts;
+    row.ours = durations_summarise(&times);
+    row.bytes = bytes_at(c, c.experts);
+    row.stream_us = time_to_stream(row.bytes);
+    durations_free(&times);
+    return {row};
+}
+#endif
+
 } // namespace
 
 std::vector<Row> measure(const Case &c, int calls,
@@ -201,6 +226,12 @@ std::vector<Row> measure(const Case &c, int calls,
 {
     std::string what =
         std::to_string(c.experts) + " " + c.kind + " experts, d = " + std::to_string(c.d);
+#ifdef REACH_BENCH_TICK
+    if (c.kind == "tick") {
+        progress(what);
+        return measure_tick(c, calls);
+    }
+#endif
     Field field = enter(c);
     arm_stream stream = arm_stream_start(1, c.d, c.speed);
     progress(what + ": learning");

@@ -13,7 +13,7 @@
 
 // One call of one case. A rival that does not take part has no summary.
 struct Row {
-    std::string name; // "update" or "predict", and the experts' kind unless linear
+    std::string name; // "update", "predict" with the experts' kind unless linear; "tick"
     int d, D;
     int experts; // ours, when the timing began
     std::optional<durations_summary> ours, textbook, lwpr;
@@ -25,6 +25,7 @@ struct Row {
 };
 
 // `calls` of each kind; `progress` is told what is being done.
+// A case of kind "tick" gives one row, without rivals.
 std::vector<Row> measure(const Case &c, int calls,
                          const std::function<void(const std::string &)> &progress);
 

@@ -57,6 +57,15 @@ class Measured(unittest.TestCase):
         self.assertTrue(1 < update["concerned"] < 20)
         self.assertGreaterEqual(predict["solutions"], 1)
 
+    def test_the_tick_of_a_daemon_with_many_experts(self):
+        result = run("--only", "tick", "--calls", 20, "--json", self.json)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        (tick,) = json.loads(self.json.read_text())
+        self.assertEqual((tick["name"], tick["d"], tick["experts"]), ("tick", 4, 1000))
+        self.assertEqual(tick["calls"], 20)
+        self.assertIsNone(tick["textbook_us"])
+        self.assertGreater(tick["ours_us"]["p50"], 5)  # it does predict
+
     def test_mistakes(self):
         for words, code, reason in (
             ((), 2, "--json is missing"),

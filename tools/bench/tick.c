@@ -1,0 +1,141 @@
+#include "tools/bench/tick.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "daemon/random.h"
+#include "daemon/tick.h"
+#include "daemon/tick_private.h"
+#include "tests/unit/daemon/fake_robot.h"
+
+enum { MOST_SAMPLES = 200000, SAMPLES_PER_TOOL = 2000 };
+
+static const double tool_length = 0.3; /* of the fake robot's units */
+
+struct bench {
+    struct config config;
+    struct arena *arena;
+    struct tick *tick;
+    struct fake_robot robot;
+    struct tick_inputs inputs;
+    struct tick_outputs outputs;
+    int64_t request_seq;
+};
+
+/* The published experts, and so little tolerance that many are born. */
+static int load_config(struct config *config, char *error, size_t error_size)
+{
+    const char *paths[] = {REACH_ETC_DIR "/kobian.yaml", REACH_ETC_DIR "/learner-linear.yaml"};
+    const char *overrides[] = {"learner.capacity=1024", "learner.noise_angle=0.05",
+                               "learner.noise_disparity=0.3"};
+
+    return config_load(config, paths, 2, overrides, sizeof overrides / sizeof overrides[0], error,
+                       error_size);
+}
+
+static int experts_of(const struct bench *bench)
+{
+    return learner_get_statistics(bench->tick->learner).experts;
+}
+
+/* Random postures of the babbled range, with hand and tool by turns. */
+static int teach(struct bench *bench, int experts, char *error, size_t error_size)
+{
+    const struct config *config = &bench->config;
+    struct random_state random = random_seed(1);
+    double q[MAX_JOINTS];
+    double x[MAX_OUTPUTS];
+
+    for (int n = 0; n < MOST_SAMPLES && experts_of(bench) < experts; n++) {
+        bench->robot.tool = n / SAMPLES_PER_TOOL % 2 ? tool_length : 0.0;
+        for (int i = 0; i < config_arm_joints(config); i++)
+            q[i] =
+                random_uniform(&random, config->babble_min.value[i], config->babble_max.value[i]);
+        fake_robot_task(&bench->robot, q, x);
+        learner_update(bench->tick->learner, q, x);
+    }
+    bench->robot.tool = 0.0;
+    if (experts_of(bench) >= experts)
+        return 0;
+    snprintf(error, error_size, "tick: only %d experts", experts_of(bench));
+    return -1;
+}
+
+/* Four targets about the middle of the image, for ever. */
+static void ask_to_reach(struct bench *bench)
+{
+    reach_request_t *request = &bench->inputs.request[bench->inputs.n_requests++];
+
+    *request = (reach_request_t){
+        .seq = ++bench->request_seq,
+        .kind = REACH_REQUEST_T_REACH,
+        .n_targets = 4,
+        .u = {-20, 20, 20, -20},
+        .v = {-20, -20, 20, 20},
+        .disparity = {20, 25, 30, 25},
+        .period = 2,
+    };
+}
+
+static void step(struct bench *bench, struct durations *times)
+{
+    struct tick_inputs *inputs = &bench->inputs;
+
+    inputs->has_state = true;
+    inputs->state = fake_robot_state(&bench->robot);
+    inputs->n_markers = bench->robot.has_marker;
+    inputs->marker[0] = bench->robot.marker;
+    int64_t start = durations_clock();
+    tick_decide(bench->tick, inputs, bench->robot.now, &bench->outputs);
+    durations_add(times, start);
+    tick_report(bench->tick, bench->robot.now, &bench->outputs);
+    inputs->n_requests = 0;
+    fake_robot_step(&bench->robot, &bench->outputs.command);
+}
+
+/* Ticks in which nothing is wanted do not count. */
+static int reach(struct bench *bench, int calls, struct durations *times, char *error,
+                 size_t error_size)
+{
+    int idle = 0;
+
+    while (times->n < (size_t)calls) {
+        size_t before = times->n;
+        if (bench->outputs.status.behaviour == REACH_STATUS_T_NONE)
+            ask_to_reach(bench);
+        step(bench, times);
+        if (bench->outputs.status.behaviour == REACH_STATUS_T_NONE) {
+            times->n = before;
+            if (++idle > 1000 + calls) {
+                snprintf(error, error_size, "tick: the daemon does not reach (answer %d)",
+                         bench->outputs.status.request_result);
+                return -1;
+            }
+        }
+    }
+    return 0;
+}
+
+int tick_bench(int experts, int calls, struct durations *times, char *error, size_t error_size)
+{
+    static struct bench bench; /* messages are large */
+    int result = -1;
+
+    memset(&bench, 0, sizeof bench);
+    if (load_config(&bench.config, error, error_size))
+        return -1;
+    bench.arena = arena_create(tick_memory(&bench.config));
+    if (!bench.arena) {
+        snprintf(error, error_size, "tick: no memory");
+        return -1;
+    }
+    bench.tick = tick_create(&bench.config, bench.arena, error, error_size);
+    if (bench.tick) {
+        fake_robot_init(&bench.robot, &bench.config);
+        result = teach(&bench, experts, error, error_size);
+    }
+    if (result == 0)
+        result = reach(&bench, calls, times, error, error_size);
+    arena_destroy(bench.arena);
+    return result;
+}
