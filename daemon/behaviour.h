@@ -59,7 +59,8 @@ struct targets {
     int64_t period;                                /* us */
     int64_t deadline;                              /* us */
     bool go_to_centre;
-    double head_goal[HEAD_JOINTS]; /* rad */
+    double head_goal[HEAD_JOINTS];      /* rad */
+    double setpoint[VISUAL_DIMENSIONS]; /* px, where a reaching arm is to be by now */
 };
 
 struct behaviour;

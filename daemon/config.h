@@ -38,6 +38,7 @@ struct config {
     double babble_gain, babble_tolerance, babble_timeout;
 
     double task_gain;                       /* K_m of eq. 4, 1/s */
+    double task_smoothing;                  /* of the set-point of reaching, s */
     double follow_gain;                     /* k_c of eq. 13, 1/s */
     double secondary_gain;                  /* K_s of eq. 4, rad/s for a gradient of 1 */
     double singular_threshold, damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */

@@ -263,6 +263,51 @@ START_TEST(an_arm_whose_marker_is_hidden_holds)
 }
 END_TEST
 
+static double arm_speed(void)
+{
+    double sum = 0;
+
+    for (int i = 0; i < config_arm_joints(&world.config); i++)
+        sum += world.outputs.command.velocity[i] * world.outputs.command.velocity[i];
+    return sqrt(sum);
+}
+
+/* Share of its highest speed that the arm has 60 ms after a target was given. */
+static double early_speed(const char *smoothing)
+{
+    reach_request_t request = {.kind = REACH_REQUEST_T_REACH,
+                               .n_targets = 1,
+                               .period = 3,
+                               .u = {50},
+                               .disparity = {20},
+                               .count = 1};
+    double early, highest = 0;
+
+    begin_with(fixture_config(&smoothing, 1));
+    babble(60, true);
+    ask(request);
+    while (world.outputs.status.phase != REACH_STATUS_T_TRACK)
+        step();
+    for (int i = 0; i < 3; i++)
+        step();
+    early = arm_speed();
+    for (int i = 0; i < 30; i++) {
+        step();
+        highest = fmax(highest, arm_speed());
+    }
+    end();
+    return early / highest;
+}
+
+START_TEST(reaching_sets_off_softly)
+{
+    /* By the filter 0.55, and at once all there is, but for the motors' greatest acceleration. */
+    double soft = early_speed("task.smoothing=0.15"), hard = early_speed("task.smoothing=0");
+
+    ck_assert_msg(soft < 0.7 && hard > 0.85, "%g with smoothing, %g without", soft, hard);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -273,6 +318,7 @@ int main(void)
         a_frozen_model_does_not_change,
         the_arm_follows_the_head,
         an_arm_whose_marker_is_hidden_holds,
+        reaching_sets_off_softly,
     };
 
     return SUITE_RUN("closed loop", tests);
