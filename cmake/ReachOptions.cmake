@@ -9,6 +9,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "" FORCE)
 endif()
+# Lines and functions, enough for backtraces and profiles; whole debug information doubles the time
+# that Eigen's templates take. Whoever needs variables in a debugger builds with
+# -DCMAKE_BUILD_TYPE=Debug.
+add_compile_options($<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:RelWithDebInfo>>:-g1>)
 # No fused multiply-add chosen by the compiler: the same source gives the same bits everywhere.
 add_compile_options(-ffp-contract=off -fno-math-errno -fstack-protector-strong)
 add_compile_definitions(_GNU_SOURCE)

@@ -7,12 +7,14 @@ namespace sim
 namespace
 {
 
-/* The frame at the tool's root whose z axis points along the tool. */
+/* The frame at the tool's root whose z axis points along the tool: the least turn from the hand's,
+ * half way about x for a tool that points back. By hand, since Eigen's way holds an SVD. */
 Eigen::Isometry3d root_frame(const Eigen::Isometry3d &hand, const ToolConfig &tool)
 {
-    Eigen::Vector3d direction(tool.direction.value);
-    return hand *
-           Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction.normalized());
+    Eigen::Vector3d z = Eigen::Vector3d(tool.direction.value).normalized();
+    Eigen::Quaterniond turn(1 + z.z(), -z.y(), z.x(), 0);
+
+    return hand * (turn.norm() > 1e-9 ? turn.normalized() : Eigen::Quaterniond(0, 1, 0, 0));
 }
 
 } // namespace

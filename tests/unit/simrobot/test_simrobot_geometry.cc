@@ -1,6 +1,6 @@
 /* The sweep: with the shipped geometry every babbled posture can be fixated, with hand and tool,
  * and the targets of the experiments can be reached. Bodies are ODE's, at rest, droop included. */
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -181,8 +181,9 @@ Eigen::Vector4d reach(const sim::Rig &rig, const Target &target, int tool, doubl
         arm.tip = tip_at_rest(q, tool);
     }
     *error = (arm.see(q) - target.pixel_position).norm();
-    *smallest_singular_value =
-        Eigen::JacobiSVD<Eigen::MatrixXd>(arm.jacobian(q)).singularValues()[2];
+    Eigen::Matrix<double, 3, 4> j = arm.jacobian(q);
+    *smallest_singular_value = std::sqrt(std::max(
+        0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(j * j.transpose()).eigenvalues()[0]));
     return q;
 }
 
