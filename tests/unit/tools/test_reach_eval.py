@@ -31,6 +31,17 @@ def run(*words) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, timeout=60)
 
 
+def fields_of(struct: str, prefix: str = "") -> set[str]:
+    """The fields of a struct in daemon/learner.h; those of a struct in it as "outer.inner"."""
+    header = re.sub(r"/\*.*?\*/", "", (SOURCE / "daemon/learner.h").read_text(), flags=re.S)
+    body = re.search(rf"struct {struct} \{{(.*?)\n\}};", header, re.S).group(1)
+    fields = set()
+    for kind, name in re.findall(r"([\w ]+?) (\w+)(?:\[\w+\])?;", body):
+        inner = re.fullmatch(r"\s*struct (\w+)", kind)
+        fields |= fields_of(inner[1], f"{name}.") if inner else {prefix + name}
+    return fields
+
+
 class Fixture(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -201,13 +212,10 @@ class Numbers(Fixture):
         self.assertEqual(report["config"], [str(config)])
 
     def test_every_parameter_of_the_learner_is_an_option(self):
-        header = (SOURCE / "daemon/learner.h").read_text()
-        body = re.search(r"struct learner_config \{(.*?)\n\};", header, re.S).group(1)
-        body = re.sub(r"/\*.*?\*/", "", body, flags=re.S)
-        fields = set(re.findall(r"(\w+)(?:\[\w+\])?;", body))
+        fields = fields_of("learner_config")
         self.assertIn("gamma_floor", fields)
         listed = run("--learner", "imle", "--inputs", 3, "--outputs", 2, "--help-options").stdout
-        options = set(re.findall(r"^(\w+) ", listed, re.M))
+        options = set(re.findall(r"^([\w.]+) ", listed, re.M))
         self.assertEqual(fields - {"kind", "n_inputs", "n_outputs"}, options)
         self.assertRegex(listed, r"hyper_sigma .*\n +default 8\n")  # 2^d
 
