@@ -8,8 +8,8 @@ static const double noise = 0.0005;     /* m */
 static const double longest_tool = 0.6; /* m */
 
 /* Joint ranges in degrees. */
-static const double lowest[ARM_JOINTS] = {-50, -30, -10, -95, 0, -20, 15};
-static const double highest[ARM_JOINTS] = {50, 30, 30, 15, 80, 100, 85};
+static const double lowest[ARM_JOINTS] = {-30, -30, -10, -80, 0, 0, 20};
+static const double highest[ARM_JOINTS] = {30, 30, 30, 0, 80, 80, 80};
 
 /* Rotations about an axis: y maps (x, z) to (cos x + sin z, -sin x + cos z), the others are
  * right-handed. */

@@ -10,7 +10,8 @@ constexpr size_t most_bytes = size_t(16) << 20;
 
 // The published algorithm's parameters; psi0 (as a standard deviation, m) decides how many experts
 // a stream needs.
-Case linear(int d, int experts, double deviation, int samples_per_tool, double speed)
+Case linear(int d, int experts, double deviation, int samples_per_tool, double speed,
+            double p0 = 0.1)
 {
     Case c{"linear", d, experts, 200000, samples_per_tool, 3, speed, learner_config_default(d, 3)};
     c.config.capacity = 1024;
@@ -19,6 +20,7 @@ Case linear(int d, int experts, double deviation, int samples_per_tool, double s
     for (double &sigma0 : c.config.sigma0)
         sigma0 = 10;
     c.config.hyper_psi = c.config.prior_psi = INFINITY;
+    c.config.p0 = p0;
     c.config.hyper_sigma = 2 * d;
     c.config.prior_sigma = std::pow(2, d);
     c.config.significance = 0.95;
@@ -73,13 +75,13 @@ std::vector<Case> all_cases()
 {
     return {
         linear(7, 40, 0.013, 20000, 0.14),
-        linear(7, 130, 0.010, 10000, 0.14),
-        linear(7, 280, 0.0065, 10000, 1.0),
-        linear(7, 1000, 0.0042, 5000, 1.0),
-        linear(4, 40, 0.012, 20000, 0.14),
-        linear(4, 130, 0.007, 10000, 0.3),
-        linear(4, 280, 0.004, 10000, 0.3),
-        linear(4, 1000, 0.002, 5000, 1.0),
+        linear(7, 130, 0.008, 10000, 0.3),
+        linear(7, 280, 0.006, 10000, 1.0, 0.2),
+        linear(7, 1000, 0.0038, 5000, 0.3),
+        linear(4, 40, 0.010, 20000, 0.14),
+        linear(4, 130, 0.005, 10000, 0.3),
+        linear(4, 280, 0.003, 10000, 1.0, 0.2),
+        linear(4, 1000, 0.0015, 5000, 1.0),
         polynomial("cubic", 3),
         polynomial("quartic", 4),
 #ifdef REACH_BENCH_TICK
