@@ -126,6 +126,8 @@ static const struct option_row table[] = {
     NUMBER("learner.leader_level", learner_leader_level, NULL, "0.9", 0, 1,
            "level of the leader rule"),
     NUMBER("learner.kappa", learner_kappa, NULL, "0.5", 0, 1, "exponent of distance, split|leader"),
+    NUMBER("learner.noise_share", learner_noise_share, NULL, "1", 1e-12, 1e6,
+           "variance of the samples' noise, in units of Psi; 1 = as published"),
     NUMBER("learner.gamma_floor", learner_gamma_floor, NULL, "0.05", 0, 100,
            "least uncertainty of an expert in an average, 0 = as published"),
     COUNT("learner.solutions", learner_solutions, "16", 1, 16, "most solutions"),
@@ -313,6 +315,7 @@ struct learner_config config_learner(const struct config *config)
     learner.significance = config->learner_significance;
     learner.leader_level = config->learner_leader_level;
     learner.kappa = config->learner_kappa;
+    learner.noise_share = config->learner_noise_share;
     learner.gamma_floor = config->learner_gamma_floor;
     learner.n_solutions_max = config->learner_solutions;
     learner.em_pred_iterations = config->learner_em_iterations;

@@ -54,6 +54,7 @@ struct config {
     double learner_alpha, learner_ridge, learner_p0;
     double learner_hyper_sigma, learner_prior_sigma, learner_hyper_psi, learner_prior_psi;
     double learner_prior_nu, learner_significance, learner_leader_level, learner_kappa;
+    double learner_noise_share;
     double learner_gamma_floor;
     bool learner_inherit, learner_average_jacobian;
     int learner_queue, learner_quota;

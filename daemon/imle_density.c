@@ -61,6 +61,11 @@ double imle_expert_leverage(struct imle *m, int j)
     return triangle_dot(m->p, m->gain, m->gain);
 }
 
+double imle_expert_gamma(struct imle *m, int j)
+{
+    return m->config.noise_share * (imle_expert_leverage(m, j) + 1.0 / m->strengths[j].S);
+}
+
 double imle_log_outlier_input(const struct imle *m)
 {
     double value = m->log_c_input;

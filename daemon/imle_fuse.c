@@ -117,7 +117,7 @@ static void gate_slope(const struct imle *m, const struct imle_answer *answer, c
         kappa[i] *= 2.0 * gate->exponent / (gate->a + answer->q);
 }
 
-/* d gamma_j = 2 (d phi / d z)' C^-1 (phi - phibar) */
+/* d gamma_j = 2 noise_share (d phi / d z)' C^-1 (phi - phibar) */
 static void gamma_slope(struct imle *m, const struct imle_answer *answer, double *dgamma)
 {
     (void)imle_expert_leverage(m, answer->expert);
@@ -127,7 +127,7 @@ static void gamma_slope(struct imle *m, const struct imle_answer *answer, double
         dgamma[i] = 0.0;
     for (int k = 0; k < m->p; k++)
         for (int i = 0; i < m->d; i++)
-            dgamma[i] += 2.0 * m->dphi[k * m->d + i] * m->gain[k];
+            dgamma[i] += 2.0 * m->config.noise_share * m->dphi[k * m->d + i] * m->gain[k];
 }
 
 /* d phi_j / d z */

@@ -46,7 +46,7 @@ static bool is_outlier(struct imle *m, const double *x)
         double bound = m->log_t[j] - m->gate[j].half_log_psi;
         if (bound < threshold - elementary_log(m->M) - negligible)
             continue;
-        double inflation = 1.0 + imle_expert_leverage(m, j) + 1.0 / m->strengths[j].S;
+        double inflation = 1.0 + imle_expert_gamma(m, j);
         double log_p =
             bound - 0.5 * m->D * elementary_log(inflation) - 0.5 * misfit(m, j, x) / inflation;
         sum += elementary_exp(fmin(log_p - threshold, 1.0));

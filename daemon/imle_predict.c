@@ -61,7 +61,7 @@ static void add_answer(struct imle *m, int j, double t)
     answer->q = m->q[j];
     answer->log_t = m->log_t[j];
     answer->t = t;
-    answer->gamma = imle_expert_leverage(m, j) + 1.0 / m->strengths[j].S;
+    answer->gamma = imle_expert_gamma(m, j);
     imle_expert_output(m, j, answer->xhat);
 }
 

@@ -139,9 +139,12 @@ void imle_expert_output(const struct imle *m, int j, double *xhat);
 /* d xhat / d z of expert j at the derivative m->dphi: W' dphi, D x d row-major, into m->slope. */
 void imle_expert_slope(struct imle *m, int j);
 
-/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi, which is gamma_j less
- * 1/S_h. Leaves L^-1 (phi - phibar) in m->gain. */
+/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. Leaves
+ * L^-1 (phi - phibar) in m->gain. */
 double imle_expert_leverage(struct imle *m, int j);
+
+/* gamma_j = noise_share (leverage + 1 / S_h): the regression's own uncertainty, in units of Psi. */
+double imle_expert_gamma(struct imle *m, int j);
 
 /* log of the outlier densities p_out(z, x) and p_out(z). */
 double imle_log_outlier_joint(const struct imle *m);

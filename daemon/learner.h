@@ -79,6 +79,9 @@ struct learner_config {
     double leader_level;                /* level of the leader rule, 0 .. 1; 0.9 */
     double kappa;                       /* exponent of distance in SPLIT and LEADER, 0 .. 1; 0.5 */
     int em_pred_iterations;             /* of the splitting rules, 0 .. 100; 2 */
+    double noise_share;                 /* variance of the samples' noise in units of Psi, > 0:
+                                           what a regression's own uncertainty scales with;
+                                           1 = as published */
     double gamma_floor;                 /* g0: an expert's uncertainty counts as at least
                                            this when experts are averaged; 0 = as
                                            published; 0 */

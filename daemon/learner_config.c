@@ -30,6 +30,7 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
         .significance = 0.99,
         .leader_level = 0.9,
         .kappa = 0.5,
+        .noise_share = 1.0,
         .em_pred_iterations = 2,
     };
 
@@ -123,6 +124,7 @@ static int check_prediction(const struct learner_config *config, char *err, size
         {"leader_level", config->leader_level, 0.0, 1.0 - 1e-9},
         {"kappa", config->kappa, 0.0, 1.0},
         {"em_pred_iterations", config->em_pred_iterations, 0, 100},
+        {"noise_share", config->noise_share, 1e-12, 1e6},
         {"gamma_floor", config->gamma_floor, 0.0, 1e6},
     };
 

@@ -54,6 +54,7 @@ static const struct option_row rows[] = {
     NUMBER(leader_level, "level of the leader rule"),
     NUMBER(kappa, "exponent of distance in the rules split and leader"),
     COUNT(em_pred_iterations, "of the rules that split"),
+    NUMBER(noise_share, "variance of the samples' noise, in units of Psi; 1 = as published"),
     NUMBER(gamma_floor, "least uncertainty of an expert in an average, 0 = as published"),
     FLAG(average_jacobian, "mean of slopes instead of the exact derivative"),
     OPTION_END,
