@@ -125,7 +125,7 @@ static const struct option_row table[] = {
            "level of the rules that split"),
     NUMBER("learner.leader_level", learner_leader_level, NULL, "0.9", 0, 1,
            "level of the leader rule"),
-    NUMBER("learner.kappa", learner_kappa, NULL, "0.5", 0, 1, "exponent of distance, split|leader"),
+    NUMBER("learner.kappa", learner_kappa, NULL, "0.5", 0, 4, "exponent of distance, split|leader"),
     NUMBER("learner.noise_share", learner_noise_share, NULL, "1", 1e-12, 1e6,
            "variance of the samples' noise, in units of Psi; 1 = as published"),
     NUMBER("learner.gamma_floor", learner_gamma_floor, NULL, "0.05", 0, 100,

@@ -77,7 +77,7 @@ struct learner_config {
     enum learner_clustering clustering; /* LEARNER_CLUSTER_PUBLISHED */
     double significance;                /* level of the two splitting rules, 0 .. 1; 0.99 */
     double leader_level;                /* level of the leader rule, 0 .. 1; 0.9 */
-    double kappa;                       /* exponent of distance in SPLIT and LEADER, 0 .. 1; 0.5 */
+    double kappa;                       /* exponent of distance in SPLIT and LEADER, 0 .. 4; 0.5 */
     int em_pred_iterations;             /* of the splitting rules, 0 .. 100; 2 */
     double noise_share;                 /* variance of the samples' noise in units of Psi, > 0:
                                            what a regression's own uncertainty scales with;

@@ -122,7 +122,7 @@ static int check_prediction(const struct learner_config *config, char *err, size
         {"clustering", (int)config->clustering, LEARNER_CLUSTER_PUBLISHED, LEARNER_CLUSTER_LEADER},
         {"significance", config->significance, 0.0, 1.0},
         {"leader_level", config->leader_level, 0.0, 1.0 - 1e-9},
-        {"kappa", config->kappa, 0.0, 1.0},
+        {"kappa", config->kappa, 0.0, 4.0},
         {"em_pred_iterations", config->em_pred_iterations, 0, 100},
         {"noise_share", config->noise_share, 1e-12, 1e6},
         {"gamma_floor", config->gamma_floor, 0.0, 1e6},

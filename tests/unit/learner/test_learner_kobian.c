@@ -128,19 +128,21 @@ static struct learner_config shipped(enum learner_features features)
     config.capacity = 64;
     for (int i = 0; i < 4; i++) {
         config.reference[i] = reference[i] * degree;
+        config.scale[i] = 1.5;
         config.sigma0[i] = linear ? 0.05 : 10.0;
     }
     config.psi0[0] = config.psi0[1] = angle * angle;
     config.psi0[2] = disparity * disparity;
     config.hyper_sigma = 8.0;
     config.hyper_psi = config.prior_psi = INFINITY;
-    config.ridge = linear ? 1e-3 : 3e-4;
+    config.ridge = linear ? 1e-3 : 5e-5;
     config.p0 = linear ? 0.1 : 1e-3;
     config.inherit = true;
     config.clustering = linear ? LEARNER_CLUSTER_PUBLISHED : LEARNER_CLUSTER_LEADER;
     config.significance = 0.95;
     config.leader_level = 0.9999;
     config.kappa = 0.5;
+    config.noise_share = linear ? 1.0 : 0.1;
     config.gamma_floor = linear ? 0.0 : 0.05;
     return config;
 }
