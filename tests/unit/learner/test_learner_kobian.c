@@ -129,11 +129,12 @@ static struct learner_config shipped(enum learner_features features)
     for (int i = 0; i < 4; i++) {
         config.reference[i] = reference[i] * degree;
         config.scale[i] = 1.5;
-        config.sigma0[i] = linear ? 0.05 : 10.0;
+        config.sigma0[i] = linear ? 0.0225 : 10.0;
     }
     config.psi0[0] = config.psi0[1] = angle * angle;
     config.psi0[2] = disparity * disparity;
     config.hyper_sigma = 8.0;
+    config.prior_sigma = linear ? 64.0 : 16.0;
     config.hyper_psi = config.prior_psi = INFINITY;
     config.ridge = linear ? 1e-3 : 5e-5;
     config.p0 = linear ? 0.1 : 1e-3;
@@ -143,7 +144,7 @@ static struct learner_config shipped(enum learner_features features)
     config.leader_level = 0.9999;
     config.kappa = 0.5;
     config.noise_share = linear ? 1.0 : 0.1;
-    config.gamma_floor = linear ? 0.0 : 0.05;
+    config.gamma_floor = 0.05;
     return config;
 }
 
