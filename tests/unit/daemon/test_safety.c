@@ -43,12 +43,14 @@ START_TEST(no_wish_passes_a_limit)
         safety_gate(&safety, q, velocity);
         for (int i = 0; i < 6; i++) {
             struct joint_limits limits = config_joint_limits(&config, i);
-            ck_assert(fabs(velocity[i]) <= limits.safety_velocity);
-            ck_assert(fabs(velocity[i] - safety.previous[i]) == 0);
             q[i] += before[i] * config.period; /* the command of a period ago */
             before[i] = velocity[i];
-            ck_assert_msg(q[i] >= limits.min - 1e-3 && q[i] <= limits.max + 1e-3,
-                          "joint %d at %g after %ld ticks", i, q[i], tick);
+            /* Not ck_assert: Check writes each one that holds to a pipe, here millions. */
+            if (!(fabs(velocity[i]) <= limits.safety_velocity) ||
+                velocity[i] != safety.previous[i] || !(q[i] >= limits.min - 1e-3) ||
+                !(q[i] <= limits.max + 1e-3))
+                ck_abort_msg("joint %d at %g, velocity %g, after %ld ticks", i, q[i], velocity[i],
+                             tick);
         }
     }
     ck_assert_int_gt(safety.changed, 0);
