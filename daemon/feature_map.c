@@ -101,7 +101,7 @@ void feature_map_derivative(const struct feature_map *map, const double *z, cons
 
     scaled(map, z, u);
     map->ops->derivative(map, u, phi, dphi);
-    for (int k = 0; k < map->n_features; k++)
-        for (int i = 0; i < map->n_inputs; i++)
-            dphi[k * map->n_inputs + i] *= map->per_scale[i];
+    for (int i = 0; i < map->n_inputs; i++)
+        for (int k = 0; k < map->n_features; k++)
+            dphi[i * map->n_features + k] *= map->per_scale[i];
 }

@@ -35,7 +35,7 @@ struct feature_map *feature_map_create(const struct learner_config *config, stru
 /* phi[count] at z[n_inputs]. */
 void feature_map_evaluate(const struct feature_map *map, const double *z, double *phi);
 
-/* d phi / d z at z, whose features are phi: dphi[count * n_inputs], row-major. */
+/* d phi / d z at z, whose features are phi: dphi[n_inputs * count], a row an input. */
 void feature_map_derivative(const struct feature_map *map, const double *z, const double *phi,
                             double *dphi);
 

@@ -134,11 +134,11 @@ static void polynomial_derivative(const struct feature_map *map, const double *u
 {
     int d = map->n_inputs;
 
-    for (int k = 0; k < map->n_features; k++)
-        for (int i = 0; i < d; i++) {
+    for (int i = 0; i < d; i++)
+        for (int k = 0; k < map->n_features; k++) {
             const struct lowered_monomial *lowered = &map->lowered[k * d + i];
             double below = lowered->index == NOTHING ? 0.0 : phi[lowered->index];
-            dphi[k * d + i] = lowered->root * below - u[i] * phi[k];
+            dphi[i * map->n_features + k] = lowered->root * below - u[i] * phi[k];
         }
 }
 

@@ -16,6 +16,11 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
 
 static int check(const struct learner_config *config, char *err, size_t err_size)
 {
+    if (!kernels_of(config->kernels)) {
+        snprintf(err, err_size, "kernels is %d: this machine has no such vectors",
+                 (int)config->kernels);
+        return -1;
+    }
     if (feature_map_count(config) > 0)
         return 0;
     snprintf(err, err_size, "degree %d of %d inputs gives more than %d features: lower the degree",
@@ -39,6 +44,8 @@ static void *create(const struct learner_config *config, struct arena *arena)
     if (!m)
         return NULL;
     set_dimensions(m, config);
+    m->kernels = kernels_of(config->kernels);
+    m->whitened = -1;
     m->map = feature_map_create(config, arena);
     if (!m->map || imle_layout(m, arena) == 0)
         return NULL;

@@ -10,7 +10,6 @@
 
 #include "daemon/elementary.h"
 #include "daemon/imle_private.h"
-#include "daemon/imle_triangle.h"
 
 /* Weight and scatter that an expert has before its first sample. */
 static const double birth_weight = 1e-6;
@@ -21,10 +20,10 @@ static double *at(double *array, int expert, size_t size)
     return array + (size_t)expert * size;
 }
 
-/* Diagonal of a packed triangle: entry (i, i). */
-static double *diagonal(double *triangle, int n, int i)
+/* Entry (i, i) of a whitener. */
+static double *diagonal(double *G, int i)
 {
-    return triangle + triangle_column(n, i);
+    return G + whitener_row(i) + (size_t)i;
 }
 
 /* Psi = (w_Psi Psi_bar + SSR) / (w_Psi + S_h + 2), or Psi_bar for a prior of infinite strength. */
@@ -43,55 +42,46 @@ static void refresh_psi(struct imle *m, int j)
 static void refresh_densities(struct imle *m, int j)
 {
     const struct imle_strengths *s = &m->strengths[j];
-    struct imle_gate *gate = &m->gate[j];
     double extra = m->config.prior_nu > 0.0 ? 2.0 : 1.0;
     double weight = s->prior_nu + s->S;
     double dof = s->prior_sigma + s->S - m->d + 1.0;
+    double per_a = weight / ((weight + 1.0) * (s->prior_sigma + s->S + m->d + extra));
     const double *psi = at(m->psi, j, (size_t)m->D);
+    double product = 1.0;
 
-    gate->a = (weight + 1.0) / weight * (s->prior_sigma + s->S + m->d + extra);
-    gate->exponent = 0.5 * (dof + m->d);
-    gate->log_norm = gate->log_det + elementary_log_gamma_ratio(0.5 * dof, 0.5 * m->d) +
-                     0.5 * m->d * elementary_log(2.0 / gate->a);
-    gate->log_S = elementary_log(s->S);
-    gate->half_log_psi = 0.0;
     for (int i = 0; i < m->D; i++)
-        gate->half_log_psi += 0.5 * elementary_log(psi[i]);
+        product *= psi[i];
+    m->gate.per_a[j] = per_a;
+    m->gate.exponent[j] = 0.5 * (dof + m->d);
+    m->gate.log_norm[j] = m->gate.log_det[j] + elementary_log_gamma_ratio(0.5 * dof, 0.5 * m->d) +
+                          0.5 * m->d * elementary_log(2.0 * per_a);
+    m->gate.log_S[j] = elementary_log(s->S);
+    m->gate.half_log_psi[j] = 0.5 * elementary_log(product);
 }
 
-/* From G with Sigma^-1 = G' G: its determinant and the diagonal of the product. */
-static void refresh_precision(struct imle *m, int j)
+/* The root of Sigma^-1 is `scale` times the rows of G: its determinant, the diagonal of Sigma^-1,
+ * and its place in the scan. */
+static void refresh_root(struct imle *m, int j, double scale, const double *G)
 {
-    const double *root = at(m->root, j, triangle_size(m->d));
     double *precision = at(m->precision, j, (size_t)m->d);
+    const double *row = G;
 
-    m->gate[j].log_det = 0.0;
-    for (int i = 0; i < m->d; i++) {
-        const double *column = root + triangle_column(m->d, i);
-        precision[i] = triangle_dot(m->d - i, column, column);
-        m->gate[j].log_det += elementary_log(column[0]);
-    }
+    imle_lanes_write(m, j, scale, G);
+    m->gate.log_det[j] = whitener_log_det(m->d, G) + m->d * elementary_log(scale);
+    memset(precision, 0, (size_t)m->d * sizeof *precision);
+    for (int r = 0; r < m->d; row += ++r)
+        for (int c = 0; c <= r; c++)
+            precision[c] += scale * scale * row[c] * row[c];
 }
 
-/* Sigma = scatter / (w_Sigma + S_h + d + 1 (+ 1 if w_nu > 0)), and the scatter is F F'. */
-static void refresh_root(struct imle *m, int j)
-{
-    const struct imle_strengths *s = &m->strengths[j];
-    size_t size = triangle_size(m->d);
-    double *root = at(m->root, j, size);
-    double extra = m->config.prior_nu > 0.0 ? 2.0 : 1.0;
-    double scale = sqrt(s->prior_sigma + s->S + m->d + extra);
-
-    memcpy(root, at(m->spread, j, size), size * sizeof *root);
-    triangle_invert(m->d, root);
-    for (size_t i = 0; i < size; i++)
-        root[i] *= scale;
-}
-
+/* Sigma is its numerator / (w_Sigma + S_h + d + 1 (+ 1 if w_nu > 0)). */
 void imle_expert_refresh(struct imle *m, int j)
 {
-    refresh_root(m, j);
-    refresh_precision(m, j);
+    const struct imle_strengths *s = &m->strengths[j];
+    double extra = m->config.prior_nu > 0.0 ? 2.0 : 1.0;
+
+    refresh_root(m, j, sqrt(s->prior_sigma + s->S + m->d + extra),
+                 at(m->spread, j, whitener_row(m->d)));
     refresh_densities(m, j);
 }
 
@@ -99,16 +89,16 @@ void imle_expert_refresh(struct imle *m, int j)
  * by one from those of the M-step. */
 static void first_densities(struct imle *m, int j)
 {
-    double *root = at(m->root, j, triangle_size(m->d));
     double *psi = at(m->psi, j, (size_t)m->D);
     double w = m->config.prior_sigma;
+    double G[LEARNER_MAX_INPUTS * (LEARNER_MAX_INPUTS + 1) / 2];
 
-    triangle_set_diagonal(m->d, root, 0.0);
+    whitener_set_diagonal(m->d, G, 1.0);
     for (int i = 0; i < m->d; i++)
-        *diagonal(root, m->d, i) = sqrt((w + m->d + 2.0) / (w * m->sigma_bar[i]));
+        *diagonal(G, i) = 1.0 / sqrt(w * m->sigma_bar[i]);
     for (int i = 0; i < m->D; i++)
         psi[i] = m->psi_bar[i] / (1.0 + 2.0 / m->config.prior_psi);
-    refresh_precision(m, j);
+    refresh_root(m, j, sqrt(w + m->d + 2.0), G);
     refresh_densities(m, j);
 }
 
@@ -125,7 +115,7 @@ static void first_regression(struct imle *m, int j, const double *x, int parent)
         memcpy(W, at(m->W, parent, p * D), p * D * sizeof(double));
     else
         memset(W, 0, p * D * sizeof(double));
-    triangle_set_diagonal(m->p, at(m->factor, j, triangle_size(m->p)), sqrt(ridge));
+    whitener_set_diagonal(m->p, at(m->whitener, j, whitener_row(m->p)), ridge);
     for (size_t k = 0; k < p; k++)
         at(m->ridge, j, p)[k] = ridge;
     memset(at(m->ssr, j, D), 0, D * sizeof(double));
@@ -135,7 +125,7 @@ void imle_expert_birth(struct imle *m, const double *z, const double *x, int par
 {
     int j = m->M++;
     size_t d = (size_t)m->d;
-    double *spread = at(m->spread, j, triangle_size(m->d));
+    double *spread = at(m->spread, j, whitener_row(m->d));
 
     m->strengths[j] = (struct imle_strengths){
         .H = birth_weight,
@@ -146,9 +136,9 @@ void imle_expert_birth(struct imle *m, const double *z, const double *x, int par
     memcpy(at(m->nu, j, d), z, d * sizeof(double));
     memcpy(at(m->nu0, j, d), z, d * sizeof(double));
     memcpy(at(m->sigma_birth, j, d), m->sigma_bar, d * sizeof(double));
-    triangle_set_diagonal(m->d, spread, 0.0);
+    whitener_set_diagonal(m->d, spread, 1.0);
     for (int i = 0; i < m->d; i++)
-        *diagonal(spread, m->d, i) = sqrt(m->config.prior_sigma * m->sigma_bar[i] + birth_scatter);
+        *diagonal(spread, i) = 1.0 / sqrt(m->config.prior_sigma * m->sigma_bar[i] + birth_scatter);
     first_regression(m, j, x, parent);
     first_densities(m, j);
 }
@@ -168,14 +158,30 @@ static void add_to_gate(struct imle *m, int j, double delta, double weight, doub
                         const double *z)
 {
     double *nu = at(m->nu, j, (size_t)m->d);
-    double joint = sqrt(weight * h / (weight + h));
+    double *G = at(m->spread, j, whitener_row(m->d));
+    const double *row = G;
     double v[LEARNER_MAX_INPUTS];
+    double y[LEARNER_MAX_INPUTS];
 
     for (int i = 0; i < m->d; i++) {
-        v[i] = joint * (z[i] - nu[i]);
-        nu[i] += h / (weight + h) * (z[i] - nu[i]);
+        v[i] = z[i] - nu[i];
+        nu[i] += h / (weight + h) * v[i];
     }
-    triangle_update(m->d, at(m->spread, j, triangle_size(m->d)), delta, v);
+    for (int r = 0; r < m->d; row += ++r) {
+        y[r] = 0.0;
+        for (int c = 0; c <= r; c++)
+            y[r] += row[c] * v[c];
+    }
+    whitener_add(m->kernels, m->d, 0, G, delta, weight * h / (weight + h), y, &m->add);
+}
+
+/* What G whitens gets `more` at coordinate i of its diagonal. */
+static void add_to_coordinate(struct imle *m, int n, double *G, int i, double more)
+{
+    for (int r = 0; r < n; r++)
+        m->white[r] = r < i ? 0.0 : G[whitener_row(r) + (size_t)i];
+    m->whitened = -1;
+    whitener_add(m->kernels, n, i, G, 1.0, more, m->white, &m->add);
 }
 
 /* Forgetting takes the priors away with the rest: gives Sigma's back what it lacks to its floor. */
@@ -184,15 +190,12 @@ static void restore_prior_sigma(struct imle *m, int j)
     struct imle_strengths *s = &m->strengths[j];
     const double *sigma = at(m->sigma_birth, j, (size_t)m->d);
     double least = fmax(m->d, m->config.prior_floor * m->config.prior_sigma);
-    double v[LEARNER_MAX_INPUTS] = {0.0};
 
     if (s->prior_sigma >= least)
         return;
-    for (int i = 0; i < m->d; i++) {
-        v[i] = sqrt((least - s->prior_sigma) * sigma[i]);
-        triangle_update(m->d, at(m->spread, j, triangle_size(m->d)), 1.0, v);
-        memset(v, 0, sizeof v);
-    }
+    for (int i = 0; i < m->d; i++)
+        add_to_coordinate(m, m->d, at(m->spread, j, whitener_row(m->d)), i,
+                          (least - s->prior_sigma) * sigma[i]);
     s->prior_sigma = least;
 }
 
@@ -220,14 +223,12 @@ static void correct_slopes(struct imle *m, int j, double step, const double *res
 {
     double *W = at(m->W, j, (size_t)m->p * (size_t)m->D);
 
-    for (int k = 0; k < m->p; k++)
-        for (int i = 0; i < m->D; i++)
-            W[k * m->D + i] += step * m->gain[k] * residual[i];
+    for (int i = 0; i < m->D; i++)
+        m->kernels->add(m->p, step * residual[i], m->gain, W + (size_t)i * (size_t)m->p);
 }
 
 static void learn_regression(struct imle *m, int j, double h, double delta, const double *x)
 {
-    double *factor = at(m->factor, j, triangle_size(m->p));
     double *phibar = at(m->phibar, j, (size_t)m->p);
     double *xbar = at(m->xbar, j, (size_t)m->D);
     double *ssr = at(m->ssr, j, (size_t)m->D);
@@ -238,7 +239,6 @@ static void learn_regression(struct imle *m, int j, double h, double delta, cons
 
     imle_expert_output(m, j, xhat);
     double gamma = imle_expert_leverage(m, j);
-    triangle_solve_transposed(m->p, factor, m->gain);
     double left = 1.0 / (1.0 + joint / delta * gamma);
     for (int i = 0; i < m->D; i++) {
         residual[i] = x[i] - xhat[i];
@@ -246,11 +246,10 @@ static void learn_regression(struct imle *m, int j, double h, double delta, cons
         xbar[i] += h / (past + h) * (x[i] - xbar[i]);
     }
     correct_slopes(m, j, joint / delta * left, residual);
-    for (int k = 0; k < m->p; k++) {
-        m->offset[k] = sqrt(joint) * (m->phi[k] - phibar[k]);
-        phibar[k] += h / (past + h) * (m->phi[k] - phibar[k]);
-    }
-    triangle_update(m->p, factor, delta, m->offset);
+    m->kernels->add(m->p, h / (past + h), m->offset, phibar);
+    whitener_add(m->kernels, m->p, 0, at(m->whitener, j, whitener_row(m->p)), delta, joint,
+                 m->white, &m->add);
+    m->whitened = -1;
 }
 
 /* Forgetting would in time take the ridge out of C. One coordinate a sample, in turn, gets back
@@ -265,9 +264,8 @@ static void restore_ridge(struct imle *m, int j, double delta)
     for (int k = 0; k < m->p; k++)
         ridge[k] *= delta;
     if (ridge[turn] < least) {
-        memset(m->offset, 0, (size_t)m->p * sizeof *m->offset);
-        m->offset[turn] = sqrt(least - ridge[turn]);
-        triangle_update(m->p, at(m->factor, j, triangle_size(m->p)), 1.0, m->offset);
+        add_to_coordinate(m, m->p, at(m->whitener, j, whitener_row(m->p)), turn,
+                          least - ridge[turn]);
         ridge[turn] = least;
     }
     s->turn = (turn + 1) % m->p;

@@ -9,7 +9,6 @@
 
 #include "daemon/elementary.h"
 #include "daemon/imle_private.h"
-#include "daemon/imle_triangle.h"
 
 static const double farthest = 1e100;
 
@@ -17,6 +16,7 @@ static const double farthest = 1e100;
 struct fusion {
     int cluster;
     double scale; /* log of the cluster's largest t */
+    double inside;
     double W;
     double dW[LEARNER_MAX_INPUTS];
     double largest_share;
@@ -43,24 +43,17 @@ static int weigh_members(struct imle *m, struct fusion *fusion, double log_outli
         if (answer->cluster != fusion->cluster)
             continue;
         answer->t = elementary_exp(answer->log_t - fusion->scale);
-        fusion->W += answer->t;
+        fusion->inside += answer->t;
         members++;
     }
+    fusion->W += fusion->inside;
     return members;
 }
 
 /* Probability of the cluster among all answers and outliers, given the query alone. */
-static double cluster_weight(const struct imle *m, const struct fusion *fusion, double log_outlier)
+static double cluster_weight(const struct imle *m, const struct fusion *fusion)
 {
-    double inside = 0.0;
-    double all = fmin(elementary_exp(log_outlier - fusion->scale), farthest);
-
-    for (int a = 0; a < m->n_answers; a++) {
-        double t = fmin(elementary_exp(m->answers[a].log_t - fusion->scale), farthest);
-        all += t;
-        inside += m->answers[a].cluster == fusion->cluster ? t : 0.0;
-    }
-    return inside / all;
+    return fusion->inside * elementary_exp(fusion->scale - m->largest_log_t) / m->all_t;
 }
 
 static double share_of(const struct imle *m, const struct fusion *fusion,
@@ -99,49 +92,16 @@ static void average(struct imle *m, struct fusion *fusion, struct learner_soluti
     }
 }
 
-/* kappa_j = (dof + d) / (a + q) Sigma^-1 (z - nu), so that d t_j = -t_j kappa_j. */
-static void gate_slope(const struct imle *m, const struct imle_answer *answer, const double *z,
-                       double *kappa)
-{
-    const struct imle_gate *gate = &m->gate[answer->expert];
-    const double *nu = m->nu + (size_t)answer->expert * (size_t)m->d;
-    const double *root = m->root + (size_t)answer->expert * triangle_size(m->d);
-    double offset[LEARNER_MAX_INPUTS];
-    double y[LEARNER_MAX_INPUTS];
-
-    for (int i = 0; i < m->d; i++)
-        offset[i] = z[i] - nu[i];
-    triangle_multiply(m->d, root, offset, y);
-    triangle_multiply_transposed(m->d, root, y, kappa);
-    for (int i = 0; i < m->d; i++)
-        kappa[i] *= 2.0 * gate->exponent / (gate->a + answer->q);
-}
-
-/* d gamma_j = 2 noise_share (d phi / d z)' C^-1 (phi - phibar) */
-static void gamma_slope(struct imle *m, const struct imle_answer *answer, double *dgamma)
-{
-    (void)imle_expert_leverage(m, answer->expert);
-    triangle_solve_transposed(m->p, m->factor + (size_t)answer->expert * triangle_size(m->p),
-                              m->gain);
-    for (int i = 0; i < m->d; i++)
-        dgamma[i] = 0.0;
-    for (int k = 0; k < m->p; k++)
-        for (int i = 0; i < m->d; i++)
-            dgamma[i] += 2.0 * m->config.noise_share * m->dphi[k * m->d + i] * m->gain[k];
-}
-
 /* d phi_j / d z */
-static void share_slope(struct imle *m, const struct fusion *fusion,
-                        const struct imle_answer *answer, const double *z, double *dshare)
+static void share_slope(const struct imle *m, const struct fusion *fusion,
+                        const struct imle_answer *answer, double *dshare)
 {
     double t = answer->t;
     double floored = answer->gamma + m->config.gamma_floor;
     double published = answer->gamma * t + fusion->W;
-    double kappa[LEARNER_MAX_INPUTS];
-    double dgamma[LEARNER_MAX_INPUTS];
+    const double *kappa = answer->kappa;
+    const double *dgamma = answer->dgamma;
 
-    gate_slope(m, answer, z, kappa);
-    gamma_slope(m, answer, dgamma);
     for (int i = 0; i < m->d; i++) {
         if (m->config.gamma_floor > 0.0)
             dshare[i] =
@@ -152,29 +112,32 @@ static void share_slope(struct imle *m, const struct fusion *fusion,
     }
 }
 
-/* d W = - sum t_j kappa_j over the cluster */
-static void weight_slope(const struct imle *m, struct fusion *fusion, const double *z)
+/* kappa_j = (dof + d) / (a + q) Sigma^-1 (z - nu), so that d t_j = -t_j kappa_j; and
+ * d W = - sum t_j kappa_j over the cluster. */
+static void weight_slope(struct imle *m, struct fusion *fusion, const double *z)
 {
-    double kappa[LEARNER_MAX_INPUTS];
-
     for (int a = 0; a < m->n_answers; a++) {
-        if (m->answers[a].cluster != fusion->cluster)
+        struct imle_answer *answer = &m->answers[a];
+        int j = answer->expert;
+        if (answer->cluster != fusion->cluster)
             continue;
-        gate_slope(m, &m->answers[a], z, kappa);
-        for (int i = 0; i < m->d; i++)
-            fusion->dW[i] -= m->answers[a].t * kappa[i];
+        double q = imle_gate_pull(m, j, z, answer->kappa);
+        double factor = 2.0 * m->gate.exponent[j] * m->gate.per_a[j] / (1.0 + q * m->gate.per_a[j]);
+        for (int i = 0; i < m->d; i++) {
+            answer->kappa[i] *= factor;
+            fusion->dW[i] -= answer->t * answer->kappa[i];
+        }
     }
 }
 
 static void add_to_jacobian(struct imle *m, const struct fusion *fusion,
-                            const struct imle_answer *answer, const double *z,
-                            struct learner_solution *solution)
+                            const struct imle_answer *answer, struct learner_solution *solution)
 {
     double dshare[LEARNER_MAX_INPUTS] = {0.0};
 
     imle_expert_slope(m, answer->expert);
     if (!m->config.average_jacobian)
-        share_slope(m, fusion, answer, z, dshare);
+        share_slope(m, fusion, answer, dshare);
     for (int i = 0; i < m->D; i++) {
         double per = 1.0 / (psi_of(m, answer)[i] * fusion->sum_precision[i]);
         double difference = answer->xhat[i] - solution->value[i];
@@ -191,13 +154,14 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
 
     memset(solution, 0, sizeof *solution);
     solution->members = weigh_members(m, &fusion, log_outlier);
-    solution->weight = cluster_weight(m, &fusion, log_outlier);
+    solution->weight = cluster_weight(m, &fusion);
     average(m, &fusion, solution);
-    weight_slope(m, &fusion, z);
+    if (!m->config.average_jacobian)
+        weight_slope(m, &fusion, z);
     for (int a = 0; a < m->n_answers; a++) {
         const struct imle_answer *answer = &m->answers[a];
         /* A share below the rounding of the largest adds nothing but work. */
         if (answer->cluster == cluster && answer->share >= DBL_EPSILON * fusion.largest_share)
-            add_to_jacobian(m, &fusion, answer, z, solution);
+            add_to_jacobian(m, &fusion, answer, solution);
     }
 }

@@ -40,7 +40,7 @@ static void evaluate(struct imle *m, struct search *s, const double *x)
 
     feature_map_evaluate(m->map, s->z, m->phi);
     imle_expert_output(m, s->expert, xhat);
-    s->cost = imle_distance(m, s->expert, s->z);
+    s->cost = imle_gate_pull(m, s->expert, s->z, s->downhill);
     for (int i = 0; i < m->D; i++) {
         s->residual[i] = x[i] - xhat[i];
         s->cost += s->residual[i] * s->residual[i] / psi[i];
@@ -50,20 +50,10 @@ static void evaluate(struct imle *m, struct search *s, const double *x)
 /* Sigma^-1 as a packed triangle in A, and Sigma^-1 (nu - z) in downhill. */
 static void begin_with_gate(const struct imle *m, struct search *s)
 {
-    const double *nu = part(m->nu, s->expert, (size_t)m->d);
-    const double *root = part(m->root, s->expert, triangle_size(m->d));
-    double offset[LEARNER_MAX_INPUTS];
-    double y[LEARNER_MAX_INPUTS];
-
+    (void)imle_gate_pull(m, s->expert, s->z, s->downhill);
     for (int i = 0; i < m->d; i++)
-        offset[i] = nu[i] - s->z[i];
-    triangle_multiply(m->d, root, offset, y);
-    triangle_multiply_transposed(m->d, root, y, s->downhill);
-    for (int i = 0; i < m->d; i++)
-        for (int k = i; k < m->d; k++)
-            s->A[triangle_column(m->d, i) + (size_t)(k - i)] =
-                triangle_dot(m->d - k, root + triangle_column(m->d, i) + (size_t)(k - i),
-                             root + triangle_column(m->d, k));
+        s->downhill[i] = -s->downhill[i];
+    imle_gate_precision(m, s->expert, s->A);
 }
 
 /* A and downhill at s->z. */
@@ -132,7 +122,6 @@ static void seek(struct imle *m, struct search *s, const double *x)
  * an expert linear in z. */
 static double log_weight(const struct imle *m, const struct search *s)
 {
-    const struct imle_gate *gate = &m->gate[s->expert];
     double L[PACKED];
     double log_det = 0.0;
 
@@ -141,7 +130,7 @@ static double log_weight(const struct imle *m, const struct search *s)
         return -INFINITY;
     for (int i = 0; i < m->d; i++)
         log_det += elementary_log(L[triangle_column(m->d, i)]);
-    return gate->log_det - log_det - gate->half_log_psi - 0.5 * s->cost;
+    return m->gate.log_det[s->expert] - log_det - m->gate.half_log_psi[s->expert] - 0.5 * s->cost;
 }
 
 /* Packed A^-1. */

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "daemon/imle_private.h"
-#include "daemon/imle_triangle.h"
 
 /* One array: where its pointer is kept and how many bytes it takes. */
 struct array {
@@ -43,20 +42,37 @@ static size_t take_experts(struct imle *m, struct arena *arena)
     size_t p = (size_t)m->p;
     const struct array arrays[] = {
         {SLOT(strengths), n * sizeof *m->strengths},
-        {SLOT(gate), n * sizeof *m->gate},
         {SLOT(nu), numbers(n * d)},
-        {SLOT(root), numbers(n * triangle_size(m->d))},
         {SLOT(precision), numbers(n * d)},
         {SLOT(nu0), numbers(n * d)},
         {SLOT(sigma_birth), numbers(n * d)},
-        {SLOT(spread), numbers(n * triangle_size(m->d))},
+        {SLOT(spread), numbers(n * whitener_row(m->d))},
         {SLOT(phibar), numbers(n * p)},
         {SLOT(xbar), numbers(n * D)},
         {SLOT(W), numbers(n * p * D)},
-        {SLOT(factor), numbers(n * triangle_size(m->p))},
+        {SLOT(whitener), numbers(n * whitener_row(m->p))},
         {SLOT(ridge), numbers(n * p)},
         {SLOT(ssr), numbers(n * D)},
         {SLOT(psi), numbers(n * D)},
+    };
+
+    return TAKE(arrays, arena);
+}
+
+static size_t take_scan(struct imle *m, struct arena *arena)
+{
+    size_t n = imle_lanes_experts(&m->config);
+    const struct array arrays[] = {
+        {SLOT(lanes), numbers(n / KERNEL_LANES * imle_lanes_block(m->d))},
+        {SLOT(gate.log_det), numbers(n)},
+        {SLOT(gate.log_norm), numbers(n)},
+        {SLOT(gate.exponent), numbers(n)},
+        {SLOT(gate.per_a), numbers(n)},
+        {SLOT(gate.half_log_psi), numbers(n)},
+        {SLOT(gate.log_S), numbers(n)},
+        {SLOT(log_t), numbers(n)},
+        {SLOT(log_h), numbers(n)},
+        {SLOT(q), numbers(n)},
     };
 
     return TAKE(arrays, arena);
@@ -74,13 +90,16 @@ static size_t take_shared(struct imle *m, struct arena *arena)
         {SLOT(phi), numbers(p)},
         {SLOT(dphi), numbers(p * d)},
         {SLOT(offset), numbers(p)},
+        {SLOT(white), numbers(p)},
         {SLOT(gain), numbers(p)},
-        {SLOT(log_t), numbers(n)},
-        {SLOT(log_h), numbers(n)},
-        {SLOT(q), numbers(n)},
+        {SLOT(add.keep), numbers(p)},
+        {SLOT(add.take), numbers(p)},
+        {SLOT(add.grow), numbers(p)},
+        {SLOT(add.sum), numbers(p)},
         {SLOT(slope), numbers(d * D)},
         {SLOT(order), n * sizeof *m->order},
-        {SLOT(answers), n * sizeof *m->answers},
+        {SLOT(answers), IMLE_MOST_ANSWERS * sizeof *m->answers},
+        {SLOT(split), imle_split_memory()},
     };
 
     return TAKE(arrays, arena);
@@ -89,9 +108,10 @@ static size_t take_shared(struct imle *m, struct arena *arena)
 size_t imle_layout(struct imle *m, struct arena *arena)
 {
     size_t experts = take_experts(m, arena);
+    size_t scan = take_scan(m, arena);
     size_t shared = take_shared(m, arena);
 
-    return experts > 0 && shared > 0 ? experts + shared : 0;
+    return experts > 0 && scan > 0 && shared > 0 ? experts + scan + shared : 0;
 }
 
 bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *part)
@@ -101,9 +121,9 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
     size_t p = (size_t)m->p;
     const struct imle_part parts[] = {
         {m->nu, d, 0, false},         {m->nu0, d, 0, false},
-        {m->sigma_birth, d, 0, true}, {m->spread, triangle_size(m->d), m->d, false},
+        {m->sigma_birth, d, 0, true}, {m->spread, whitener_row(m->d), m->d, false},
         {m->phibar, p, 0, false},     {m->xbar, D, 0, false},
-        {m->W, p * D, 0, false},      {m->factor, triangle_size(m->p), m->p, false},
+        {m->W, p * D, 0, false},      {m->whitener, whitener_row(m->p), m->p, false},
         {m->ridge, p, 0, true},       {m->ssr, D, 0, false},
         {m->psi, D, 0, true},
     };

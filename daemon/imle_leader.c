@@ -48,7 +48,7 @@ static void sort_by_precision(struct imle *m)
         const struct imle_answer *answer = &m->answers[a];
         m->order[a] = a;
         m->log_h[a] =
-            0.5 * m->D * elementary_log(answer->spread) + m->gate[answer->expert].half_log_psi;
+            0.5 * m->D * elementary_log(answer->spread) + m->gate.half_log_psi[answer->expert];
     }
     imle_sort_order(m, m->n_answers);
 }

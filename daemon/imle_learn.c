@@ -4,25 +4,24 @@
 #include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 
-/* Experts whose share is below exp(-this) of what decides are not looked at closely. */
-static const double negligible = 40.0;
+/* An expert whose share is bounded by exp(-this) of the rest is not looked at closely: all of them
+ * together change a responsibility by less than M exp(-this), 1e-10 of it for 1000 experts. */
+static const double negligible = 30.0;
 
 /* Gating and features of the sample; false when its features are too large to compute with. */
 static bool look_at(struct imle *m, const double *z)
 {
+    m->whitened = -1;
     feature_map_evaluate(m->map, z, m->phi);
     for (int k = 0; k < m->p; k++)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
             return false;
-    for (int j = 0; j < m->M; j++) {
-        m->q[j] = imle_distance(m, j, z);
-        m->log_t[j] = imle_log_t(m, j, m->q[j]);
-    }
+    imle_scan(m, z);
     return true;
 }
 
 /* sum (x - xhat)^2 / Psi of expert j. */
-static double misfit(const struct imle *m, int j, const double *x)
+static double misfit(struct imle *m, int j, const double *x)
 {
     const double *psi = m->psi + (size_t)j * (size_t)m->D;
     double xhat[LEARNER_MAX_OUTPUTS];
@@ -34,23 +33,43 @@ static double misfit(const struct imle *m, int j, const double *x)
     return sum;
 }
 
-/* sum_j p_j(z, x) < p_out(z, x) / M. The residual only lowers p_j, so that the gating alone tells
- * which experts cannot matter; the sum ends as soon as it is large enough. */
+/* p_j(z, x) in units of exp(log_unit), cut at e. */
+static double joint_density(struct imle *m, int j, const double *x, double log_unit)
+{
+    double inflation = 1.0 + imle_expert_gamma(m, j);
+    double log_p = m->log_t[j] - m->gate.half_log_psi[j] - 0.5 * m->D * elementary_log(inflation) -
+                   0.5 * misfit(m, j, x) / inflation;
+
+    return elementary_exp(fmin(log_p - log_unit, 1.0));
+}
+
+/* m->log_h becomes the largest that log p_j(z, x) can be: the residual only lowers it. Returns the
+ * expert where that is largest. */
+static int bound_densities(struct imle *m)
+{
+    int best = 0;
+
+    for (int j = 0; j < m->M; j++)
+        m->log_h[j] = m->log_t[j] - m->gate.half_log_psi[j];
+    for (int j = 1; j < m->M; j++)
+        if (m->log_h[j] > m->log_h[best])
+            best = j;
+    return best;
+}
+
+/* sum_j p_j(z, x) < p_out(z, x) / M. The gating alone tells which experts cannot matter; the sum
+ * begins where most is to be expected, and ends as soon as it is large enough. */
 static bool is_outlier(struct imle *m, const double *x)
 {
     if (m->M == 0)
         return true;
-    double threshold = imle_log_outlier_joint(m) - elementary_log(m->M);
-    double sum = 0.0;
-    for (int j = 0; j < m->M && sum < 1.0; j++) {
-        double bound = m->log_t[j] - m->gate[j].half_log_psi;
-        if (bound < threshold - elementary_log(m->M) - negligible)
-            continue;
-        double inflation = 1.0 + imle_expert_gamma(m, j);
-        double log_p =
-            bound - 0.5 * m->D * elementary_log(inflation) - 0.5 * misfit(m, j, x) / inflation;
-        sum += elementary_exp(fmin(log_p - threshold, 1.0));
-    }
+    double log_M = elementary_log(m->M);
+    double threshold = imle_log_outlier_joint(m) - log_M;
+    int best = bound_densities(m);
+    double sum = joint_density(m, best, x, threshold);
+    for (int j = 0; j < m->M && sum < 1.0; j++)
+        if (j != best && m->log_h[j] >= threshold - log_M - negligible)
+            sum += joint_density(m, j, x, threshold);
     return sum < 1.0;
 }
 
@@ -60,38 +79,57 @@ static int parent_of_newborn(const struct imle *m)
     int parent = -1;
 
     for (int j = 0; m->config.inherit && j < m->M; j++)
-        if (parent < 0 || m->log_t[j] + m->gate[j].log_S > m->log_t[parent] + m->gate[parent].log_S)
+        if (parent < 0 || m->log_t[j] + m->gate.log_S[j] > m->log_t[parent] + m->gate.log_S[parent])
             parent = j;
     return parent;
 }
 
-/* log h_j before normalising, for experts that may have a share; the others get -INFINITY. Returns
- * the largest. */
-static double log_responsibilities(struct imle *m, const double *x)
+/* m->log_h becomes log h_j before normalising, were x met exactly; returns where it is largest. */
+static int bound_responsibilities(struct imle *m)
 {
-    double largest = -INFINITY;
+    int best = 0;
 
+    for (int j = 0; j < m->M; j++)
+        m->log_h[j] = m->gate.log_det[j] - 0.5 * m->q[j] - m->gate.half_log_psi[j];
+    for (int j = 1; j < m->M; j++)
+        if (m->log_h[j] > m->log_h[best])
+            best = j;
+    return best;
+}
+
+/* m->order lists the experts that may have a share, m->log_h their log h_j before normalising.
+ * Returns how many; *largest is the largest. */
+static int gather_shares(struct imle *m, const double *x, double *largest)
+{
+    int best = bound_responsibilities(m);
+    double best_log_h = m->log_h[best] - 0.5 * misfit(m, best, x);
+    int n = 0;
+
+    *largest = best_log_h;
     for (int j = 0; j < m->M; j++) {
-        double bound = m->gate[j].log_det - 0.5 * m->q[j] - m->gate[j].half_log_psi;
-        m->log_h[j] = -INFINITY;
-        if (bound < largest - negligible)
+        if (m->log_h[j] < *largest - negligible)
             continue;
-        m->log_h[j] = bound - 0.5 * misfit(m, j, x);
-        largest = fmax(largest, m->log_h[j]);
+        m->log_h[j] = j == best ? best_log_h : m->log_h[j] - 0.5 * misfit(m, j, x);
+        *largest = fmax(*largest, m->log_h[j]);
+        m->order[n++] = j;
     }
-    return largest;
+    return n;
 }
 
 /* The E-step, then the M-step of each expert with a share. `newborn` (or -1) learns whatever its
  * share, for an expert without weight predicts nothing. */
 static void learn_shares(struct imle *m, const double *z, const double *x, int newborn)
 {
-    double largest = log_responsibilities(m, x);
+    double largest = 0.0;
+    int n = gather_shares(m, x, &largest);
     double sum = 0.0;
 
-    for (int j = 0; j < m->M; j++)
-        sum += elementary_exp(m->log_h[j] - largest);
-    for (int j = 0; j < m->M; j++) {
+    if (newborn >= 0 && (n == 0 || m->order[n - 1] != newborn))
+        m->order[n++] = newborn;
+    for (int k = 0; k < n; k++)
+        sum += elementary_exp(m->log_h[m->order[k]] - largest);
+    for (int k = 0; k < n; k++) {
+        int j = m->order[k];
         double h = elementary_exp(m->log_h[j] - largest) / sum;
         if (j == newborn)
             h = fmax(h, 1e-3);

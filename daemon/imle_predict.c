@@ -5,8 +5,9 @@
 #include "daemon/elementary.h"
 #include "daemon/imle_private.h"
 
-/* An expert whose weight is below exp(-this) of the largest changes nothing in double precision. */
-static const double negligible = 40.0;
+/* An expert whose t is below exp(-this) of the largest is left out: all of them together move a
+ * solution by less than M exp(-this) of what they differ from it, 1.4e-8 for 1000 experts. */
+static const double negligible = 25.0;
 
 /* p_out(z) in units of the largest t is cut here: beyond it a solution has no weight anyway. */
 static const double farthest = 1e100;
@@ -16,94 +17,101 @@ static bool look_at(struct imle *m, const double *z)
 {
     if (m->M == 0)
         return false;
+    m->whitened = -1;
     feature_map_evaluate(m->map, z, m->phi);
     for (int k = 0; k < m->p; k++)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
             return false;
     feature_map_derivative(m->map, z, m->phi, m->dphi);
-    for (int j = 0; j < m->M; j++) {
-        m->q[j] = imle_distance(m, j, z);
-        m->log_t[j] = imle_log_t(m, j, m->q[j]);
-    }
+    imle_scan(m, z);
     return true;
 }
 
-/* log tau_j: t_j without its determinant, so that narrow experts do not outshout wide ones. */
-static double log_tau(const struct imle *m, int j)
-{
-    return m->log_t[j] - m->gate[j].log_norm;
-}
-
-static double largest_log_t(const struct imle *m)
+static double largest_of(const double *numbers, int n)
 {
     double largest = -INFINITY;
 
-    for (int j = 0; j < m->M; j++)
-        largest = fmax(largest, m->log_t[j]);
+    for (int j = 0; j < n; j++)
+        largest = numbers[j] > largest ? numbers[j] : largest;
     return largest;
 }
 
-static double largest_log_tau(const struct imle *m)
+/* m->order lists the experts with m->log_h not over `limit`, in the order of age; of more than
+ * IMLE_MOST_ANSWERS those where it is smallest. Returns how many. */
+static int choose_experts(struct imle *m, double limit)
 {
-    double largest = -INFINITY;
+    int n = 0;
 
     for (int j = 0; j < m->M; j++)
-        largest = fmax(largest, log_tau(m, j));
-    return largest;
+        if (m->log_h[j] <= limit)
+            m->order[n++] = j;
+    if (n <= IMLE_MOST_ANSWERS)
+        return n;
+    imle_sort_order(m, n);
+    return IMLE_MOST_ANSWERS;
 }
 
-static void add_answer(struct imle *m, int j, double t)
+static void add_answer(struct imle *m, int j)
 {
     struct imle_answer *answer = &m->answers[m->n_answers++];
 
     answer->expert = j;
     answer->cluster = 0;
-    answer->q = m->q[j];
     answer->log_t = m->log_t[j];
-    answer->t = t;
+    answer->t = elementary_exp(m->log_t[j] - m->largest_log_t);
     answer->gamma = imle_expert_gamma(m, j);
     imle_expert_output(m, j, answer->xhat);
+    m->kernels->apply(m->p, m->d, m->dphi, m->gain, answer->dgamma);
+    for (int i = 0; i < m->d; i++)
+        answer->dgamma[i] *= 2.0 * m->config.noise_share;
 }
 
-/* Answers with the published variance R_j = Psi_j (gamma_j + W / t_j). */
-static void gather_published(struct imle *m, double largest, double outlier)
+/* Answers of the first n in m->order, and the sum of their t. */
+static void ask_experts(struct imle *m, int n, double log_outlier)
 {
-    double W = outlier;
-
     m->n_answers = 0;
-    for (int j = 0; j < m->M; j++)
-        if (m->log_t[j] >= largest - negligible)
-            add_answer(m, j, elementary_exp(m->log_t[j] - largest));
-    for (int k = 0; k < m->n_answers; k++)
-        W += m->answers[k].t;
-    for (int k = 0; k < m->n_answers; k++)
-        m->answers[k].spread = m->answers[k].gamma + W / m->answers[k].t;
-}
-
-/* Answers with R_j = Psi_j (1 + gamma_j) / (tau_j / max tau)^kappa. Whoever has too large an R
- * could only ever follow another: left out. */
-static void gather_by_distance(struct imle *m, double largest)
-{
-    double kappa = m->config.kappa;
-    double nearest = largest_log_tau(m);
-
-    m->n_answers = 0;
-    for (int j = 0; j < m->M; j++) {
-        double far = kappa * (nearest - log_tau(m, j));
-        if (far > negligible)
-            continue;
-        add_answer(m, j, elementary_exp(m->log_t[j] - largest));
-        struct imle_answer *answer = &m->answers[m->n_answers - 1];
-        answer->spread = (1.0 + answer->gamma) * elementary_exp(far);
+    m->all_t = fmin(elementary_exp(log_outlier - m->largest_log_t), farthest);
+    for (int k = 0; k < n; k++) {
+        add_answer(m, m->order[k]);
+        m->all_t += m->answers[k].t;
     }
 }
 
-static int cluster(struct imle *m, double largest, double outlier)
+/* Answers with the published variance R_j = Psi_j (gamma_j + W / t_j). */
+static void gather_published(struct imle *m, double log_outlier)
+{
+    for (int j = 0; j < m->M; j++)
+        m->log_h[j] = m->largest_log_t - m->log_t[j];
+    ask_experts(m, choose_experts(m, negligible), log_outlier);
+    for (int k = 0; k < m->n_answers; k++)
+        m->answers[k].spread = m->answers[k].gamma + m->all_t / m->answers[k].t;
+}
+
+/* Answers with R_j = Psi_j (1 + gamma_j) / (tau_j / max tau)^kappa, tau_j being t_j without its
+ * determinant, so that narrow experts do not outshout wide ones. Whoever has too large an R could
+ * only ever follow another: left out. */
+static void gather_by_distance(struct imle *m, double log_outlier)
+{
+    double kappa = m->config.kappa;
+
+    for (int j = 0; j < m->M; j++)
+        m->log_h[j] = m->log_t[j] - m->gate.log_norm[j];
+    double nearest = largest_of(m->log_h, m->M);
+    for (int j = 0; j < m->M; j++)
+        m->log_h[j] = kappa * (nearest - m->log_h[j]);
+    ask_experts(m, choose_experts(m, negligible), log_outlier);
+    for (int k = 0; k < m->n_answers; k++) {
+        struct imle_answer *answer = &m->answers[k];
+        answer->spread = (1.0 + answer->gamma) * elementary_exp(m->log_h[answer->expert]);
+    }
+}
+
+static int cluster(struct imle *m, double log_outlier)
 {
     if (m->config.clustering == LEARNER_CLUSTER_PUBLISHED)
-        gather_published(m, largest, outlier);
+        gather_published(m, log_outlier);
     else
-        gather_by_distance(m, largest);
+        gather_by_distance(m, log_outlier);
     if (m->config.clustering == LEARNER_CLUSTER_LEADER)
         return imle_cluster_by_leaders(m);
     return imle_cluster_by_splitting(m);
@@ -129,9 +137,9 @@ int imle_predict(struct imle *m, const double *z, struct learner_prediction *pre
 {
     if (!look_at(m, z))
         return 0;
-    double largest = largest_log_t(m);
     double log_outlier = imle_log_outlier_input(m);
-    int n = cluster(m, largest, fmin(elementary_exp(log_outlier - largest), farthest));
+    m->largest_log_t = largest_of(m->log_t, m->M);
+    int n = cluster(m, log_outlier);
     for (int k = 0; k < n; k++)
         imle_fuse(m, z, k, log_outlier, &prediction->solution[k]);
     sort_solutions(prediction->solution, n);
@@ -142,9 +150,9 @@ int imle_predict_single(struct imle *m, const double *z, struct learner_solution
 {
     if (!look_at(m, z))
         return 0;
-    double largest = largest_log_t(m);
     double log_outlier = imle_log_outlier_input(m);
-    gather_published(m, largest, fmin(elementary_exp(log_outlier - largest), farthest));
+    m->largest_log_t = largest_of(m->log_t, m->M);
+    gather_published(m, log_outlier);
     imle_fuse(m, z, 0, log_outlier, solution);
     return 1;
 }

@@ -1,9 +1,9 @@
 /* The state of the mixture, and the jobs that work on it, one file each.
  *
- * Letters: d inputs, D outputs, p features, M experts. Arrays that hold something of every expert
- * are laid out expert after expert, so that expert j's part begins at j times the part's size;
- * arrays that a scan over all experts reads (nu, gate, the cached numbers) are apart from the large
- * ones that only a few experts need for one query (W, factor).
+ * Letters: d inputs, D outputs, p features, M experts. What a scan over all experts reads (lanes,
+ * gate) is laid out for vector instructions, number by number over the experts. What only the few
+ * experts need that matter for one query (W, whitener, ...) is apart from it, expert after expert,
+ * so that expert j's part begins at j times the part's size.
  *
  * An expert is kept CENTRED: means, and scatters about the means, instead of raw sums. It is the
  * published expert exactly (docs/learner.md has the derivation), free of the cancellation that
@@ -12,6 +12,8 @@
 #define REACH_IMLE_PRIVATE_H
 
 #include "daemon/feature_map.h"
+#include "daemon/imle_whitener.h"
+#include "daemon/kernels.h"
 #include "daemon/learner_private.h"
 
 #ifdef __cplusplus
@@ -28,32 +30,37 @@ struct imle_strengths {
     double turn; /* coordinate whose ridge is topped up next */
 };
 
-/* What densities need, recomputed whenever the expert changes. */
+/* Most answers that one prediction weighs against each other: it bounds the time. */
+enum { IMLE_MOST_ANSWERS = 384 };
+
+/* What densities need, one number an expert; recomputed whenever the expert changes. */
 struct imle_gate {
-    double log_det;      /* log |Sigma^-1|^(1/2) */
-    double log_norm;     /* log t_j at q = 0 */
-    double exponent;     /* (dof + d) / 2 */
-    double a;            /* as in t_j */
-    double half_log_psi; /* 1/2 sum log Psi_i */
-    double log_S;
+    double *log_det;      /* log |Sigma^-1|^(1/2) */
+    double *log_norm;     /* log t_j at q = 0 */
+    double *exponent;     /* (dof + d) / 2 */
+    double *per_a;        /* 1 / a, as in t_j */
+    double *half_log_psi; /* 1/2 sum log Psi_i */
+    double *log_S;
 };
 
 /* One expert's answer to the query at hand. */
 struct imle_answer {
     int expert;
     int cluster;
-    double q;
     double log_t;
     double t;      /* relative to the largest */
     double gamma;  /* regression's own uncertainty, in units of Psi */
     double spread; /* what R is, in units of Psi */
     double share;  /* phi_j */
     double xhat[LEARNER_MAX_OUTPUTS];
+    double kappa[LEARNER_MAX_INPUTS];  /* d t_j / d z = -t_j kappa */
+    double dgamma[LEARNER_MAX_INPUTS]; /* d gamma / d z */
 };
 
 struct imle {
     struct learner_config config;
     struct feature_map *map;
+    const struct kernels *kernels;
     int d, D, p;
     int M;
     int outliers_in_row;
@@ -64,35 +71,44 @@ struct imle {
     double *sigma_bar; /* d: the shared priors */
     double *psi_bar;   /* D */
 
+    /* for a scan: all experts */
+    double *lanes; /* blocks of 8 experts: nu, and the root R of Sigma^-1 = R' R (kernels.h) */
+    struct imle_gate gate;
+
     /* M experts each */
     struct imle_strengths *strengths;
-    struct imle_gate *gate;
     double *nu;          /* d: centre */
-    double *root;        /* packed d: G with Sigma^-1 = G' G */
     double *precision;   /* d: diagonal of Sigma^-1 */
     double *nu0;         /* d: where it was born */
     double *sigma_birth; /* d: Sigma_bar at its birth */
-    double *spread;      /* packed d: Cholesky factor of Sigma's numerator */
+    double *spread;      /* packed d: whitener of Sigma's numerator */
     double *phibar;      /* p: mean features */
     double *xbar;        /* D: mean output */
-    double *W;           /* p x D: slopes by feature */
-    double *factor;      /* packed p: Cholesky factor of C, the features' scatter plus ridge */
+    double *W;           /* D x p: slopes by feature */
+    double *whitener;    /* packed p: of C, the features' scatter plus ridge */
     double *ridge;       /* p: what forgetting has left of the ridge in C */
     double *ssr;         /* D: squared residuals */
     double *psi;         /* D: Psi_j */
 
     /* scratch for one call */
     double *phi;                 /* p */
-    double *dphi;                /* p x d */
-    double *offset;              /* p */
-    double *gain;                /* p */
-    double *log_t;               /* M */
-    double *log_h;               /* M */
-    double *q;                   /* M */
+    double *dphi;                /* d x p */
+    double *offset;              /* p: phi - phibar of one expert */
+    double *white;               /* p: its whitener times that offset */
+    double *gain;                /* p: C^-1 times that offset */
+    int whitened;                /* the expert that white and gain are of, or -1 */
+    double leverage;             /* of the same: |white|^2 */
+    struct whitener_scratch add; /* p each */
+    double *log_t;               /* M, up to a multiple of 8 */
+    double *log_h;               /* the same */
+    double *q;                   /* the same */
     double *slope;               /* D x d */
     int *order;                  /* M */
-    struct imle_answer *answers; /* M */
+    struct imle_answer *answers; /* IMLE_MOST_ANSWERS */
     int n_answers;
+    double largest_log_t; /* of all experts */
+    double all_t;         /* sum of t over the answers, and p_out(z), relative to that */
+    struct imle_split_scratch *split;
 };
 
 /* imle_layout.c ---------------------------------------------------------------------------- */
@@ -105,7 +121,7 @@ size_t imle_layout(struct imle *m, struct arena *arena);
 struct imle_part {
     double *begin;
     size_t size;
-    int order;     /* over 0: a packed triangle of this order, its diagonal positive */
+    int order;     /* over 0: a whitener of this order, its diagonal positive */
     bool positive; /* no number is zero or less */
 };
 
@@ -125,22 +141,35 @@ void imle_expert_update(struct imle *m, int j, double h, const double *z, const 
 /* Recomputes everything that is derived from the state of expert j. */
 void imle_expert_refresh(struct imle *m, int j);
 
+/* imle_gating.c ---------------------------------------------------------------------------- */
+
+/* Numbers of one block of lanes, and the experts that lanes have room for. */
+size_t imle_lanes_block(int d);
+size_t imle_lanes_experts(const struct learner_config *config);
+
+/* m->q and m->log_t of all experts at z. */
+void imle_scan(struct imle *m, const double *z);
+
+/* Puts expert j's nu and the root `scale` times the packed rows of G into its lane. */
+void imle_lanes_write(struct imle *m, int j, double scale, const double *G);
+
+/* q = (z - nu)' Sigma^-1 (z - nu) of expert j; Sigma^-1 (z - nu) in pull[d]. */
+double imle_gate_pull(const struct imle *m, int j, const double *z, double *pull);
+
+/* Sigma^-1 of expert j, packed (imle_triangle.h). */
+void imle_gate_precision(const struct imle *m, int j, double *packed);
+
 /* imle_density.c --------------------------------------------------------------------------- */
 
-/* q = (z - nu)' Sigma^-1 (z - nu) of expert j. */
-double imle_distance(const struct imle *m, int j, const double *z);
-
-/* log t_j at that distance. */
-double imle_log_t(const struct imle *m, int j, double q);
-
 /* xhat[D] of expert j at the features m->phi. */
-void imle_expert_output(const struct imle *m, int j, double *xhat);
+void imle_expert_output(struct imle *m, int j, double *xhat);
 
-/* d xhat / d z of expert j at the derivative m->dphi: W' dphi, D x d row-major, into m->slope. */
+/* d xhat / d z of expert j at the derivative m->dphi: W dphi', D x d row-major, into m->slope. */
 void imle_expert_slope(struct imle *m, int j);
 
-/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. Leaves
- * L^-1 (phi - phibar) in m->gain. */
+/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. Leaves m->white and
+ * m->gain; the expert they are of already costs nothing. Whoever changes phi or the expert must set
+ * m->whitened to -1. */
 double imle_expert_leverage(struct imle *m, int j);
 
 /* gamma_j = noise_share (leverage + 1 / S_h): the regression's own uncertainty, in units of Psi. */
@@ -165,8 +194,9 @@ int imle_predict_single(struct imle *m, const double *z, struct learner_solution
 /* imle_split.c, imle_leader.c -------------------------------------------------------------- */
 
 /* Give each of m->answers its cluster; return how many there are (1 or more; none is empty). They
- * use m->order, m->log_h, m->log_t and m->q as scratch. */
+ * use m->order and m->log_h as scratch. */
 int imle_cluster_by_splitting(struct imle *m);
+size_t imle_split_memory(void);
 int imle_cluster_by_leaders(struct imle *m);
 
 /* Sorts the first n indices in m->order by m->log_h[index], smallest first; equals by index. */

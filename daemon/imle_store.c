@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "daemon/imle_private.h"
-#include "daemon/imle_triangle.h"
 
 /* Numbers of the mixture itself: both shared priors, and the outliers in a row. */
 static size_t shared_numbers(const struct imle *m)
@@ -77,7 +76,7 @@ static void copy_state(struct imle *m, const unsigned char *buffer)
 static bool part_fits(const struct imle_part *part, const unsigned char *buffer)
 {
     size_t next_diagonal = 0;
-    int column = part->order;
+    size_t row = 0;
     double number = 0.0;
 
     for (size_t i = 0; i < part->size; i++) {
@@ -86,7 +85,7 @@ static bool part_fits(const struct imle_part *part, const unsigned char *buffer)
         if (!isfinite(number) || ((part->positive || on_diagonal) && !(number > 0.0)))
             return false;
         if (on_diagonal)
-            next_diagonal += (size_t)column--;
+            next_diagonal += ++row + 1;
     }
     return true;
 }

@@ -23,27 +23,6 @@ void triangle_set_diagonal(int n, double *L, double value)
         L[triangle_column(n, j)] = value;
 }
 
-/* One Givens rotation a column; each keeps the diagonal positive. */
-void triangle_update(int n, double *L, double factor, double *v)
-{
-    double root = sqrt(factor);
-
-    for (int j = 0; j < n; j++) {
-        double *column = L + triangle_column(n, j);
-        double old = root * column[0];
-        double diagonal = sqrt(old * old + v[j] * v[j]);
-        double cosine = old / diagonal;
-        double sine = v[j] / diagonal;
-        double scaled = root * cosine;
-        column[0] = diagonal;
-        for (int i = 1; i < n - j; i++) {
-            double above = column[i];
-            column[i] = scaled * above + sine * v[j + i];
-            v[j + i] = cosine * v[j + i] - sine * (root * above);
-        }
-    }
-}
-
 void triangle_solve(int n, const double *L, double *y)
 {
     for (int j = 0; j < n; j++) {
@@ -98,20 +77,4 @@ void triangle_invert(int n, double *L)
             column[i] = -sum * inverse;
         }
     }
-}
-
-void triangle_multiply(int n, const double *L, const double *v, double *y)
-{
-    memset(y, 0, (size_t)n * sizeof *y);
-    for (int j = 0; j < n; j++) {
-        const double *column = L + triangle_column(n, j);
-        for (int i = 0; i < n - j; i++)
-            y[j + i] += column[i] * v[j];
-    }
-}
-
-void triangle_multiply_transposed(int n, const double *L, const double *v, double *y)
-{
-    for (int j = 0; j < n; j++)
-        y[j] = triangle_dot(n - j, L + triangle_column(n, j), v + j);
 }

@@ -1,8 +1,6 @@
-/* Lower triangular matrices packed by columns, and the Cholesky factors kept in them.
- *
- * A positive definite matrix C = L L' is carried as L alone. Adding samples to L (and never taking
- * any away) cannot make C indefinite, however long it goes on: that is why nothing here needs a
- * refresh. Column j holds the entries (j,j) .. (n-1,j), one after the other. */
+/* Small lower triangular matrices packed by columns, and Cholesky factors in them: what the inverse
+ * prediction solves with (for what is carried from sample to sample see imle_whitener.h). Column j
+ * holds the entries (j,j) .. (n-1,j), one after the other. */
 #ifndef REACH_IMLE_TRIANGLE_H
 #define REACH_IMLE_TRIANGLE_H
 
@@ -30,9 +28,6 @@ double triangle_dot(int n, const double *a, const double *b);
 /* L = diag(value). */
 void triangle_set_diagonal(int n, double *L, double value);
 
-/* L L' becomes factor L L' + v v'; factor > 0. v[n] is used up. O(n^2). */
-void triangle_update(int n, double *L, double factor, double *v);
-
 /* y := L^-1 y */
 void triangle_solve(int n, const double *L, double *y);
 
@@ -45,10 +40,6 @@ int triangle_factor(int n, double *C);
 
 /* L becomes L^-1, triangular too. */
 void triangle_invert(int n, double *L);
-
-/* y = L v and y = L' v; y and v differ. */
-void triangle_multiply(int n, const double *L, const double *v, double *y);
-void triangle_multiply_transposed(int n, const double *L, const double *v, double *y);
 
 #ifdef __cplusplus
 }

@@ -32,7 +32,7 @@ struct envelope {
 };
 
 static const char magic[8] = "RLEARNER";
-static const uint64_t version = 2;
+static const uint64_t version = 3;
 
 const struct learner_ops *learner_ops_of(enum learner_kind kind)
 {

@@ -7,7 +7,11 @@ add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/learner_null.c
   ${CMAKE_CURRENT_LIST_DIR}/feature_map.c
   ${CMAKE_CURRENT_LIST_DIR}/feature_polynomial.c
+  ${CMAKE_CURRENT_LIST_DIR}/kernels.c
+  ${CMAKE_CURRENT_LIST_DIR}/kernels_plain.c
   ${CMAKE_CURRENT_LIST_DIR}/imle.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_gating.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_whitener.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_layout.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_expert.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_density.c
@@ -23,3 +27,18 @@ add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/imle_triangle.c)
 target_include_directories(reach_learner PUBLIC ${CMAKE_SOURCE_DIR})
 target_link_libraries(reach_learner PRIVATE reach_warnings PUBLIC m)
+
+# The inner loops, once for each vector width. -fno-trapping-math lets the compiler turn a choice
+# between two numbers into a vector instruction; it changes no result.
+set(REACH_KERNEL_OPTIONS -O3 -fno-trapping-math)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernels_plain.c PROPERTIES
+  COMPILE_OPTIONS "${REACH_KERNEL_OPTIONS}")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_sources(reach_learner PRIVATE
+    ${CMAKE_CURRENT_LIST_DIR}/kernels_avx2.c ${CMAKE_CURRENT_LIST_DIR}/kernels_avx512.c)
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernels_avx2.c PROPERTIES
+    COMPILE_OPTIONS "${REACH_KERNEL_OPTIONS};-mavx2")
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernels_avx512.c PROPERTIES
+    COMPILE_OPTIONS "${REACH_KERNEL_OPTIONS};-mavx512f")
+  target_compile_definitions(reach_learner PRIVATE REACH_KERNELS_X86)
+endif()

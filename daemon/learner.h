@@ -42,6 +42,14 @@ enum learner_clustering {
     LEARNER_CLUSTER_LEADER,    /* one pass, in order of precision */
 };
 
+/* Vector width of the inner loops. All give the same bits. */
+enum learner_kernels {
+    LEARNER_KERNELS_AUTO,  /* the widest that the machine has */
+    LEARNER_KERNELS_PLAIN, /* what every machine has */
+    LEARNER_KERNELS_AVX2,
+    LEARNER_KERNELS_AVX512,
+};
+
 /* Every parameter. learner_config_default() fills all rows but psi0 and
  * sigma0, which must be given. The symbol is that of the algorithm's paper. */
 struct learner_config {
@@ -87,6 +95,8 @@ struct learner_config {
                                            published; 0 */
     bool average_jacobian;              /* weighted mean of slopes instead of the exact
                                            derivative of the prediction; false */
+
+    enum learner_kernels kernels; /* LEARNER_KERNELS_AUTO; what the machine lacks is refused */
 };
 
 /* All defaults for these dimensions; psi0 and sigma0 are left at zero. */

@@ -126,6 +126,7 @@ static int check_prediction(const struct learner_config *config, char *err, size
         {"em_pred_iterations", config->em_pred_iterations, 0, 100},
         {"noise_share", config->noise_share, 1e-12, 1e6},
         {"gamma_floor", config->gamma_floor, 0.0, 1e6},
+        {"kernels", (int)config->kernels, LEARNER_KERNELS_AUTO, LEARNER_KERNELS_AVX512},
     };
 
     return CHECK_RANGES(ranges, err, err_size);

@@ -87,7 +87,8 @@ static void compare_with_differences(const struct learner_config *config)
         feature_map_evaluate(map, shifted, down);
         shifted[i] = z[i];
         for (int k = 0; k < feature_map_count(config); k++)
-            ck_assert_double_eq_tol(dphi[k * d + i], (up[k] - down[k]) / 2e-5, 1e-8);
+            ck_assert_double_eq_tol(dphi[i * feature_map_count(config) + k],
+                                    (up[k] - down[k]) / 2e-5, 1e-8);
     }
     arena_destroy(arena);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "daemon/imle_triangle.h"
+#include "daemon/imle_whitener.h"
 #include "tests/unit/learner/bed.h"
 #include "tests/unit/suite.h"
 
@@ -167,20 +168,23 @@ START_TEST(nothing_is_allocated_after_creation)
 }
 END_TEST
 
-/* A factor that a million samples have gone through is that of the matrix they add up to. */
-START_TEST(factors_do_not_drift)
+/* A whitener that a million samples have gone through is that of the matrix they add up to. */
+START_TEST(whiteners_do_not_drift)
 {
-    enum { N = 5 };
+    enum { N = 9 };
+    const struct kernels *kernels = kernels_of(LEARNER_KERNELS_AUTO);
     const double factor = 0.999;
-    double L[15], C[15], v[N], copy[N];
+    double G[N * (N + 1) / 2], C[N * (N + 1) / 2], v[N], white[N], back[N], scratch[4][N];
+    const struct whitener_scratch add = {scratch[0], scratch[1], scratch[2], scratch[3]};
 
     bed_seed();
-    triangle_set_diagonal(N, L, 1.0);
+    whitener_set_diagonal(N, G, 1.0);
     triangle_set_diagonal(N, C, 1.0);
     for (int n = 0; n < 1000000; n++) {
         for (int i = 0; i < N; i++)
-            copy[i] = v[i] = bed_uniform(-1.0, 1.0) * (i + 1);
-        triangle_update(N, L, factor, copy);
+            v[i] = bed_uniform(-1.0, 1.0) * (i + 1);
+        kernels->whiten(N, G, v, white, back);
+        whitener_add(kernels, N, 0, G, factor, 1.0, white, &add);
         for (int i = 0; i < N; i++)
             for (int k = i; k < N; k++) {
                 double *entry = C + triangle_column(N, i) + (size_t)(k - i);
@@ -188,8 +192,13 @@ START_TEST(factors_do_not_drift)
             }
     }
     ck_assert_int_eq(triangle_factor(N, C), 0);
-    for (int i = 0; i < 15; i++)
-        ck_assert_double_eq_tol(L[i], C[i], 1e-10 * (1.0 + fabs(C[i])));
+    triangle_invert(N, C);
+    for (int i = 0; i < N; i++)
+        for (int k = i; k < N; k++) {
+            double exact = C[triangle_column(N, i) + (size_t)(k - i)];
+            ck_assert_double_eq_tol(G[whitener_row(k) + (size_t)i], exact,
+                                    1e-10 * (1.0 + fabs(exact)));
+        }
 }
 END_TEST
 
@@ -198,7 +207,7 @@ int main(void)
     const TTest *const tests[] = {
         a_still_robot_breaks_nothing, collinear_and_huge_inputs_stay_finite,
         what_is_no_number_is_refused, nothing_is_allocated_after_creation,
-        factors_do_not_drift,
+        whiteners_do_not_drift,
     };
 
     return SUITE_RUN("learner numerics", tests);
