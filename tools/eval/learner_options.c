@@ -57,6 +57,7 @@ static const struct option_row rows[] = {
     NUMBER(noise_share, "variance of the samples' noise, in units of Psi; 1 = as published"),
     NUMBER(gamma_floor, "least uncertainty of an expert in an average, 0 = as published"),
     FLAG(average_jacobian, "mean of slopes instead of the exact derivative"),
+    CHOICE(kernels, "auto|plain|avx2|avx512", "vector width; all give the same bits"),
     OPTION_END,
 };
 
