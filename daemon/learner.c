@@ -41,6 +41,8 @@ const struct learner_ops *learner_ops_of(enum learner_kind kind)
         return &learner_imle_ops;
     case LEARNER_NULL:
         return &learner_null_ops;
+    case LEARNER_LWPR:
+        return &learner_lwpr_ops;
     }
     return NULL;
 }

@@ -24,7 +24,15 @@ add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/imle_inverse.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_store.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_chi2.c
-  ${CMAKE_CURRENT_LIST_DIR}/imle_triangle.c)
+  ${CMAKE_CURRENT_LIST_DIR}/imle_triangle.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_layout.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_field.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_pls.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_metric.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_learn.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_predict.c
+  ${CMAKE_CURRENT_LIST_DIR}/lwpr_store.c)
 target_include_directories(reach_learner PUBLIC ${CMAKE_SOURCE_DIR})
 target_link_libraries(reach_learner PRIVATE reach_warnings PUBLIC m)
 

@@ -27,6 +27,7 @@ extern "C" {
 enum learner_kind {
     LEARNER_IMLE, /* infinite mixture of experts linear in features */
     LEARNER_NULL, /* accepts every sample, predicts nothing: for tests */
+    LEARNER_LWPR, /* locally weighted projection regression: one value everywhere */
 };
 
 /* What an expert is linear in. */
@@ -50,13 +51,35 @@ enum learner_kernels {
     LEARNER_KERNELS_AVX512,
 };
 
+/* Parameters of LEARNER_LWPR alone, by their published names. The metric is
+ * that of inputs in units of `scale`. docs/lwpr.md. */
+struct learner_lwpr_config {
+    double init_d;        /* diagonal of a new field's metric D, > 0; 10 */
+    bool diagonal_only;   /* D stays diagonal; true */
+    double init_alpha;    /* learning rate of the metric, >= 0 (D stays); 50 */
+    double penalty;       /* on large metrics, >= 0; 1e-6 */
+    double w_gen;         /* a sample that activates no field as much gets one, 0 .. 1; 0.1 */
+    double w_prune;       /* a sample that activates two this much removes one, w_gen .. 1; 0.9 */
+    double cutoff;        /* activation under which a field takes no part, 0 .. w_gen; 0.001 */
+    double add_threshold; /* a projection that leaves less than this share of the error is
+                             followed by another, 0 .. 1; 0.5 */
+    int max_projections;  /* of a field, 1 .. n_inputs; n_inputs */
+    double init_lambda;   /* forgetting factor of a new projection, 0.99 .. 1; 0.999 */
+    double final_lambda;  /* what it goes to, 0.99 .. 1; 0.99999 */
+    double tau_lambda;    /* how slowly, 0 .. 1; 0.9999 */
+    double init_s2;       /* what a projection's sum of squares begins with, > 0; 1e-10 */
+    double norm_out[LEARNER_MAX_OUTPUTS]; /* unit of an output, > 0; 1 */
+};
+
 /* Every parameter. learner_config_default() fills all rows but psi0 and
- * sigma0, which must be given. The symbol is that of the algorithm's paper. */
+ * sigma0, which must be given (LEARNER_LWPR does without). The symbol is that of the algorithm's
+ * paper. */
 struct learner_config {
     enum learner_kind kind; /* LEARNER_IMLE */
     int n_inputs;           /* d, 1 .. LEARNER_MAX_INPUTS */
     int n_outputs;          /* D, 1 .. LEARNER_MAX_OUTPUTS */
-    int capacity;           /* most experts, >= 1; default 256 */
+    int capacity;           /* most experts (or receptive fields, of all outputs together),
+                               >= 1; default 256 */
 
     enum learner_features features;       /* LEARNER_LINEAR */
     int degree;                           /* of the polynomial, 1 .. 6; 3 */
@@ -97,6 +120,8 @@ struct learner_config {
                                            derivative of the prediction; false */
 
     enum learner_kernels kernels; /* LEARNER_KERNELS_AUTO; what the machine lacks is refused */
+
+    struct learner_lwpr_config lwpr;
 };
 
 /* All defaults for these dimensions; psi0 and sigma0 are left at zero. */

@@ -32,6 +32,7 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
         .kappa = 0.5,
         .noise_share = 1.0,
         .em_pred_iterations = 2,
+        .lwpr = learner_lwpr_default(n_inputs),
     };
 
     for (int i = 0; i < LEARNER_MAX_INPUTS; i++)
@@ -39,18 +40,11 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
     return config;
 }
 
-/* A row and the range that its number must be in. Written so that NaN is refused. */
-struct range {
-    const char *name;
-    double value;
-    double minimum;
-    double maximum;
-};
-
-static int check_ranges(const struct range *ranges, size_t n, char *err, size_t err_size)
+int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err, size_t err_size)
 {
     for (size_t i = 0; i < n; i++) {
-        const struct range *r = &ranges[i];
+        const struct learner_range *r = &ranges[i];
+        /* Written so that NaN is refused. */
         if (r->value >= r->minimum && r->value <= r->maximum)
             continue;
         snprintf(err, err_size, "%s is %g: must be between %g and %g", r->name, r->value,
@@ -61,12 +55,12 @@ static int check_ranges(const struct range *ranges, size_t n, char *err, size_t 
 }
 
 #define CHECK_RANGES(ranges, err, err_size)                                                        \
-    check_ranges(ranges, sizeof(ranges) / sizeof((ranges)[0]), err, err_size)
+    learner_check_ranges(ranges, sizeof(ranges) / sizeof((ranges)[0]), err, err_size)
 
 static int check_dimensions(const struct learner_config *config, char *err, size_t err_size)
 {
-    const struct range ranges[] = {
-        {"kind", (int)config->kind, LEARNER_IMLE, LEARNER_NULL},
+    const struct learner_range ranges[] = {
+        {"kind", (int)config->kind, LEARNER_IMLE, LEARNER_LWPR},
         {"n_inputs", config->n_inputs, 1, LEARNER_MAX_INPUTS},
         {"n_outputs", config->n_outputs, 1, LEARNER_MAX_OUTPUTS},
         {"capacity", config->capacity, 1, 65536},
@@ -80,17 +74,28 @@ static int check_dimensions(const struct learner_config *config, char *err, size
 static int check_scales(const struct learner_config *config, char *err, size_t err_size)
 {
     for (int i = 0; i < config->n_inputs; i++) {
-        const struct range ranges[] = {
+        const struct learner_range ranges[] = {
             {"reference", config->reference[i], -LEARNER_LARGEST_NUMBER, LEARNER_LARGEST_NUMBER},
             {"scale", config->scale[i], 1e-9, LEARNER_LARGEST_NUMBER},
-            {"sigma0", config->sigma0[i], 1e-12, 1e12},
         };
         if (CHECK_RANGES(ranges, err, err_size) != 0)
             return -1;
     }
+    return 0;
+}
+
+static int check_variances(const struct learner_config *config, char *err, size_t err_size)
+{
+    if (config->kind == LEARNER_LWPR)
+        return 0;
+    for (int i = 0; i < config->n_inputs; i++) {
+        const struct learner_range range = {"sigma0", config->sigma0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
     for (int i = 0; i < config->n_outputs; i++) {
-        const struct range range = {"psi0", config->psi0[i], 1e-12, 1e12};
-        if (check_ranges(&range, 1, err, err_size) != 0)
+        const struct learner_range range = {"psi0", config->psi0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
             return -1;
     }
     return 0;
@@ -98,7 +103,7 @@ static int check_scales(const struct learner_config *config, char *err, size_t e
 
 static int check_learning(const struct learner_config *config, char *err, size_t err_size)
 {
-    const struct range ranges[] = {
+    const struct learner_range ranges[] = {
         {"alpha", config->alpha, 0.9, 1.0},
         {"hyper_sigma", config->hyper_sigma, 1e-3, INFINITY},
         {"hyper_psi", config->hyper_psi, 1e-3, INFINITY},
@@ -117,7 +122,7 @@ static int check_learning(const struct learner_config *config, char *err, size_t
 
 static int check_prediction(const struct learner_config *config, char *err, size_t err_size)
 {
-    const struct range ranges[] = {
+    const struct learner_range ranges[] = {
         {"n_solutions_max", config->n_solutions_max, 1, LEARNER_MAX_SOLUTIONS},
         {"clustering", (int)config->clustering, LEARNER_CLUSTER_PUBLISHED, LEARNER_CLUSTER_LEADER},
         {"significance", config->significance, 0.0, 1.0},
@@ -135,7 +140,8 @@ static int check_prediction(const struct learner_config *config, char *err, size
 int learner_config_check(const struct learner_config *config, char *err, size_t err_size)
 {
     if (check_dimensions(config, err, err_size) != 0 || check_scales(config, err, err_size) != 0 ||
-        check_learning(config, err, err_size) != 0 || check_prediction(config, err, err_size) != 0)
+        check_variances(config, err, err_size) != 0 || check_learning(config, err, err_size) != 0 ||
+        check_prediction(config, err, err_size) != 0)
         return -1;
     return learner_ops_of(config->kind)->check(config, err, err_size);
 }
@@ -171,6 +177,8 @@ uint64_t learner_config_hash(const struct learner_config *config)
 
     hash = learner_hash(hash, config->reference, inputs);
     hash = learner_hash(hash, config->scale, inputs);
+    if (config->kind == LEARNER_LWPR)
+        return learner_lwpr_hash(hash, config);
     hash = learner_hash(hash, config->sigma0, inputs);
     return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
 }

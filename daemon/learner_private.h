@@ -36,6 +36,22 @@ struct learner_ops {
 
 extern const struct learner_ops learner_imle_ops;
 extern const struct learner_ops learner_null_ops;
+extern const struct learner_ops learner_lwpr_ops;
+
+/* Defaults of config.lwpr, and its part of the hash below. */
+struct learner_lwpr_config learner_lwpr_default(int n_inputs);
+uint64_t learner_lwpr_hash(uint64_t hash, const struct learner_config *config);
+
+/* A row and the range that its number must be in. */
+struct learner_range {
+    const char *name;
+    double value;
+    double minimum;
+    double maximum;
+};
+
+/* 0, or -1 and a line in err for the first that is out of range or NaN. */
+int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err, size_t err_size);
 
 /* The implementation of a kind; NULL for a number that is none. */
 const struct learner_ops *learner_ops_of(enum learner_kind kind);

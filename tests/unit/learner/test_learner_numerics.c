@@ -104,21 +104,68 @@ START_TEST(a_still_robot_breaks_nothing)
 }
 END_TEST
 
+static struct learner_config lwpr_config(double lambda)
+{
+    struct learner_config config = config_for(LEARNER_LINEAR, 0.999);
+
+    config.kind = LEARNER_LWPR;
+    config.lwpr.init_lambda = config.lwpr.final_lambda = lambda;
+    return config;
+}
+
+/* The first case is long enough for what is not refreshed to be forgotten down to zero. */
+START_TEST(a_still_robot_breaks_no_receptive_field)
+{
+    const double lambdas[] = {0.99, 0.999, 1.0};
+    const double offsets[] = {0.0, 100.0, 1000.0};
+    const double jitters[] = {0.0, 0.001, 0.1};
+
+    bed_seed();
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < 3; k++) {
+            struct learner_config config = lwpr_config(lambdas[a]);
+            config.lwpr.diagonal_only = k != 1;
+            hold_still(&config, offsets[k], jitters[(a + k) % 3], a + k == 0 ? 100000 : 10000);
+        }
+}
+END_TEST
+
+/* Inputs and outputs over 18 decades, all on one line. */
+static void expect_finite_on_a_line(const struct learner_config *config)
+{
+    struct learner *learner = bed_create(config);
+
+    for (int n = 0; n < 3000; n++) {
+        double size = pow(10.0, bed_uniform(-9.0, 9.0));
+        double z[2] = {size, size};
+        double x[2] = {-size, bed_uniform(-1.0, 1.0) * size};
+        ck_assert_int_ne(learner_update(learner, z, x), LEARNER_REFUSED);
+        if (n > 2)
+            expect_finite(learner, z);
+    }
+    bed_clean();
+}
+
+START_TEST(receptive_fields_stay_finite_on_collinear_and_huge_inputs)
+{
+    bed_seed();
+    for (int full = 0; full < 2; full++)
+        for (int wide = 0; wide < 2; wide++) {
+            struct learner_config config = lwpr_config(0.999);
+            config.lwpr.diagonal_only = !full;
+            if (wide)
+                config.scale[0] = config.scale[1] = 1e6;
+            expect_finite_on_a_line(&config);
+        }
+}
+END_TEST
+
 START_TEST(collinear_and_huge_inputs_stay_finite)
 {
     bed_seed();
     for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
         struct learner_config config = config_for((enum learner_features)features, 0.95);
-        struct learner *learner = bed_create(&config);
-        for (int n = 0; n < 3000; n++) {
-            double size = pow(10.0, bed_uniform(-9.0, 9.0));
-            double z[2] = {size, size};
-            double x[2] = {-size, bed_uniform(-1.0, 1.0) * size};
-            ck_assert_int_ne(learner_update(learner, z, x), LEARNER_REFUSED);
-            if (n > 2)
-                expect_finite(learner, z);
-        }
-        bed_clean();
+        expect_finite_on_a_line(&config);
     }
 }
 END_TEST
@@ -145,26 +192,35 @@ START_TEST(what_is_no_number_is_refused)
 }
 END_TEST
 
+static void expect_no_allocation(const struct learner_config *config)
+{
+    struct learner *learner = bed_create(config);
+    struct learner_solution single;
+    long before = allocations;
+
+    for (int n = 0; n < 500; n++) {
+        double z[2] = {bed_uniform(-1.0, 1.0), bed_uniform(-1.0, 1.0)};
+        double x[2] = {sin(3.0 * z[0]) + n % 2, cos(3.0 * z[1])};
+        learner_update(learner, z, x);
+        learner_predict(learner, z, &prediction);
+        learner_predict_single(learner, z, &single);
+        learner_predict_inverse(learner, x, &inverse);
+    }
+    ck_assert_int_eq(allocations - before, 0);
+    ck_assert_int_gt(learner_get_statistics(learner).experts, 3);
+    bed_clean();
+}
+
 START_TEST(nothing_is_allocated_after_creation)
 {
+    struct learner_config lwpr = lwpr_config(0.999);
+
     bed_seed();
     for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
         struct learner_config config = config_for((enum learner_features)features, 0.999);
-        struct learner *learner = bed_create(&config);
-        struct learner_solution single;
-        long before = allocations;
-        for (int n = 0; n < 500; n++) {
-            double z[2] = {bed_uniform(-1.0, 1.0), bed_uniform(-1.0, 1.0)};
-            double x[2] = {sin(3.0 * z[0]) + n % 2, cos(3.0 * z[1])};
-            learner_update(learner, z, x);
-            learner_predict(learner, z, &prediction);
-            learner_predict_single(learner, z, &single);
-            learner_predict_inverse(learner, x, &inverse);
-        }
-        ck_assert_int_eq(allocations - before, 0);
-        ck_assert_int_gt(learner_get_statistics(learner).experts, 3);
-        bed_clean();
+        expect_no_allocation(&config);
     }
+    expect_no_allocation(&lwpr);
 }
 END_TEST
 
@@ -205,8 +261,12 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {
-        a_still_robot_breaks_nothing, collinear_and_huge_inputs_stay_finite,
-        what_is_no_number_is_refused, nothing_is_allocated_after_creation,
+        a_still_robot_breaks_nothing,
+        a_still_robot_breaks_no_receptive_field,
+        receptive_fields_stay_finite_on_collinear_and_huge_inputs,
+        collinear_and_huge_inputs_stay_finite,
+        what_is_no_number_is_refused,
+        nothing_is_allocated_after_creation,
         whiteners_do_not_drift,
     };
 
