@@ -95,7 +95,7 @@ static const struct option_row table[] = {
     NUMBER("task.scale_disparity", scale_disparity, "px", "40", 1e-6, 1e4,
            "the task row of disparity is divided by this, likewise"),
 
-    CHOICE("learner.kind", learner_kind, "imle", "imle|null", "learning algorithm"),
+    CHOICE("learner.kind", learner_kind, "imle", "imle|null|lwpr", "learning algorithm"),
     CHOICE("learner.experts", learner_features, "polynomial", "linear|polynomial",
            "what an expert is linear in: the joints (as published) or their monomials"),
     COUNT("learner.degree", learner_degree, "3", 1, 6, "of the polynomial"),
@@ -136,6 +136,34 @@ static const struct option_row table[] = {
          "a new expert starts from its parent's slopes"),
     FLAG("learner.average_jacobian", learner_average_jacobian, "false",
          "mean of slopes instead of the exact derivative"),
+    NUMBER("learner.lwpr_init_d", lwpr.init_d, NULL, "10", 1e-6, 1e6,
+           "LWPR: metric of a new receptive field, per square of learner.scale"),
+    FLAG("learner.lwpr_diagonal_only", lwpr.diagonal_only, "true", "LWPR: metrics stay diagonal"),
+    NUMBER("learner.lwpr_init_alpha", lwpr.init_alpha, NULL, "50", 0, 1e9,
+           "LWPR: learning rate of the metric, 0 = metrics stay as they are born"),
+    NUMBER("learner.lwpr_penalty", lwpr.penalty, NULL, "1e-6", 0, 1e9, "LWPR: on large metrics"),
+    NUMBER("learner.lwpr_w_gen", lwpr.w_gen, NULL, "0.1", 1e-9, 0.99,
+           "LWPR: activation under which a sample gets a field of its own"),
+    NUMBER("learner.lwpr_w_prune", lwpr.w_prune, NULL, "0.9", 1e-9, 1,
+           "LWPR: activation of two fields by one sample at which one goes"),
+    NUMBER("learner.lwpr_cutoff", lwpr.cutoff, NULL, "0.001", 1e-12, 0.99,
+           "LWPR: activation under which a field takes no part"),
+    NUMBER("learner.lwpr_add_threshold", lwpr.add_threshold, NULL, "0.5", 0, 1,
+           "LWPR: share of the error under which a projection is followed by another"),
+    COUNT("learner.lwpr_projections", lwpr.max_projections, "16", 1, 16,
+          "LWPR: most projections of a field; never more than joints"),
+    NUMBER("learner.lwpr_init_lambda", lwpr.init_lambda, NULL, "0.999", 0.99, 1,
+           "LWPR: forgetting factor of a new projection, 1 = none"),
+    NUMBER("learner.lwpr_final_lambda", lwpr.final_lambda, NULL, "0.99999", 0.99, 1,
+           "LWPR: forgetting factor in the end"),
+    NUMBER("learner.lwpr_tau_lambda", lwpr.tau_lambda, NULL, "0.9999", 0, 1,
+           "LWPR: how slowly one goes to the other"),
+    NUMBER("learner.lwpr_init_s2", lwpr.init_s2, NULL, "1e-10", 1e-30, 1e9,
+           "LWPR: what a projection's sum of squares begins with"),
+    NUMBER("learner.lwpr_norm_angle", lwpr_norm_angle, "deg", "1", 1e-6, 360,
+           "LWPR: unit of the angles in the metric's cost"),
+    NUMBER("learner.lwpr_norm_disparity", lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
+           "LWPR: unit of the disparity, likewise"),
     COUNT("learner.queue", learner_queue, "256", 1, 65536, "training samples that may wait"),
     COUNT("learner.quota", learner_quota, "4", 1, 1000, "samples learned in one tick of lockstep"),
 
@@ -321,5 +349,10 @@ struct learner_config config_learner(const struct config *config)
     learner.em_pred_iterations = config->learner_em_iterations;
     learner.inherit = config->learner_inherit;
     learner.average_jacobian = config->learner_average_jacobian;
+    learner.lwpr = config->lwpr;
+    if (learner.lwpr.max_projections > n_inputs)
+        learner.lwpr.max_projections = n_inputs;
+    learner.lwpr.norm_out[0] = learner.lwpr.norm_out[1] = config->lwpr_norm_angle;
+    learner.lwpr.norm_out[2] = config->lwpr_norm_disparity;
     return learner;
 }

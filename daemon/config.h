@@ -57,6 +57,9 @@ struct config {
     double learner_noise_share;
     double learner_gamma_floor;
     bool learner_inherit, learner_average_jacobian;
+    struct learner_lwpr_config lwpr; /* all but norm_out, which is: */
+    double lwpr_norm_angle;          /* rad */
+    double lwpr_norm_disparity;      /* px */
     int learner_queue, learner_quota;
 
     char model_directory[OPTION_MAX_TEXT];

@@ -8,7 +8,7 @@
 /* What the table fills: the configuration, and arrays as people write them. */
 struct options {
     struct learner_config config;
-    struct option_list reference, scale, psi0, sigma0;
+    struct option_list reference, scale, psi0, sigma0, norm_out;
 };
 
 #define ROW(name, type, help)                                                                      \
@@ -22,10 +22,11 @@ struct options {
     {                                                                                              \
 #name, OPTION_CHOICE, offsetof(struct options, config.name), NULL, NULL, 0, 0, help, words \
     }
-#define SPREAD(name, help)                                                                         \
+#define SPREAD_AT(name, list, help)                                                                \
     {                                                                                              \
-#name, OPTION_SPREAD, offsetof(struct options, name), NULL, NULL, 0, 0, help, NULL         \
+#name, OPTION_SPREAD, offsetof(struct options, list), NULL, NULL, 0, 0, help, NULL         \
     }
+#define SPREAD(name, help) SPREAD_AT(name, name, help)
 
 /* Defaults are put in by fill_table(); ranges are learner_config_check()'s. */
 static const struct option_row rows[] = {
@@ -58,6 +59,20 @@ static const struct option_row rows[] = {
     NUMBER(gamma_floor, "least uncertainty of an expert in an average, 0 = as published"),
     FLAG(average_jacobian, "mean of slopes instead of the exact derivative"),
     CHOICE(kernels, "auto|plain|avx2|avx512", "vector width; all give the same bits"),
+    NUMBER(lwpr.init_d, "LWPR: metric of a new receptive field, per square of scale"),
+    FLAG(lwpr.diagonal_only, "LWPR: metrics stay diagonal"),
+    NUMBER(lwpr.init_alpha, "LWPR: learning rate of the metric"),
+    NUMBER(lwpr.penalty, "LWPR: on large metrics"),
+    NUMBER(lwpr.w_gen, "LWPR: activation under which a sample gets a field of its own"),
+    NUMBER(lwpr.w_prune, "LWPR: activation of two fields at which one goes"),
+    NUMBER(lwpr.cutoff, "LWPR: activation under which a field takes no part"),
+    NUMBER(lwpr.add_threshold, "LWPR: share of the error under which a projection is added"),
+    COUNT(lwpr.max_projections, "LWPR: most projections of a field"),
+    NUMBER(lwpr.init_lambda, "LWPR: forgetting factor of a new projection, 1 = none"),
+    NUMBER(lwpr.final_lambda, "LWPR: forgetting factor in the end"),
+    NUMBER(lwpr.tau_lambda, "LWPR: how slowly one goes to the other"),
+    NUMBER(lwpr.init_s2, "LWPR: what a projection's sum of squares begins with"),
+    SPREAD_AT(lwpr.norm_out, norm_out, "LWPR: unit of each output in the metric's cost"),
     OPTION_END,
 };
 
@@ -80,6 +95,9 @@ static double *array_of(const struct option_row *row, struct learner_config *con
         return config->scale;
     case offsetof(struct options, sigma0):
         return config->sigma0;
+    case offsetof(struct options, norm_out):
+        *n = config->n_outputs;
+        return config->lwpr.norm_out;
     default:
         *n = config->n_outputs;
         return config->psi0;

@@ -29,9 +29,9 @@ struct config fixture_config(const char *const *overrides, int n_overrides)
     return load(names, 1, overrides, n_overrides);
 }
 
-struct config fixture_linear_config(void)
+struct config fixture_learner_config(const char *learner)
 {
-    const char *names[] = {"kobian.yaml", "learner-linear.yaml"};
+    const char *names[] = {"kobian.yaml", learner};
 
     return load(names, 2, NULL, 0);
 }

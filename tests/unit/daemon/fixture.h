@@ -10,8 +10,8 @@
 /* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
 struct config fixture_config(const char *const *overrides, int n_overrides);
 
-/* The same with etc/learner-linear.yaml over it. */
-struct config fixture_linear_config(void);
+/* The same with a file of etc over it, such as "learner-linear.yaml". */
+struct config fixture_learner_config(const char *learner);
 
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
 struct random_state fixture_random(const char *test);

@@ -184,13 +184,25 @@ END_TEST
 
 START_TEST(linear_experts_do_too)
 {
-    begin_with(fixture_linear_config());
+    begin_with(fixture_learner_config("learner-linear.yaml"));
     babble(120, true);
     world.robot.tool = 0.35;
     babble(120, true);
     star(5);
     world.robot.tool = 0;
     star(5);
+    end();
+}
+END_TEST
+
+/* It knows one value for a posture, so one tool. */
+START_TEST(receptive_fields_reach_with_the_hand)
+{
+    begin_with(fixture_learner_config("learner-lwpr.yaml"));
+    babble(200, true);
+    ck_assert_int_eq(world.outputs.status.solutions, 1);
+    star(5);
+    ck_assert_int_eq(world.outputs.status.gated, 0);
     end();
 }
 END_TEST
@@ -315,6 +327,7 @@ int main(void)
         the_head_searches_what_is_out_of_view,
         it_learns_two_tools_and_reaches_with_both,
         linear_experts_do_too,
+        receptive_fields_reach_with_the_hand,
         a_frozen_model_does_not_change,
         the_arm_follows_the_head,
         an_arm_whose_marker_is_hidden_holds,

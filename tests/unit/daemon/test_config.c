@@ -57,9 +57,21 @@ START_TEST(the_shipped_configuration_names_every_option)
 }
 END_TEST
 
+START_TEST(the_file_of_receptive_fields_fits)
+{
+    struct config config = fixture_learner_config("learner-lwpr.yaml");
+    struct learner_config learner = config_learner(&config);
+
+    ck_assert_int_eq(learner.kind, LEARNER_LWPR);
+    ck_assert_int_eq(learner.lwpr.max_projections, 4);
+    ck_assert_double_eq_tol(learner.lwpr.norm_out[1], 0.0174532925, 1e-9);
+    ck_assert_double_eq(learner.lwpr.norm_out[2], 3);
+}
+END_TEST
+
 START_TEST(the_linear_learner_s_file_fits)
 {
-    struct config config = fixture_linear_config();
+    struct config config = fixture_learner_config("learner-linear.yaml");
 
     ck_assert_int_eq(config.learner_features, LEARNER_LINEAR);
     ck_assert_double_eq(config.learner_noise_disparity, 6);
@@ -100,7 +112,9 @@ int main(void)
 {
     const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
                                   the_shipped_configuration_names_every_option,
-                                  the_linear_learner_s_file_fits, the_learner_gets_variances,
+                                  the_file_of_receptive_fields_fits,
+                                  the_linear_learner_s_file_fits,
+                                  the_learner_gets_variances,
                                   what_does_not_fit_together_is_refused};
 
     return SUITE_RUN("config", tests);
