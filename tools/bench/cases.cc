@@ -1,12 +1,12 @@
 #include "tools/bench/cases.h"
 
 #include <cmath>
+#include <stdexcept>
+
+#include "tools/eval/learner_options.h"
 
 namespace
 {
-
-// What one tick may touch: the capacity of richer experts is counted in bytes.
-constexpr size_t most_bytes = size_t(16) << 20;
 
 // The published algorithm's parameters; psi0 (as a standard deviation, m) decides how many experts
 // a stream needs.
@@ -28,35 +28,35 @@ Case linear(int d, int experts, double deviation, int samples_per_tool, double s
     return c;
 }
 
-// Experts linear in monomials, each of a tool of its own, as many as the bytes allow.
-Case polynomial(const char *kind, int degree)
+// A shipped configuration, its outputs in metres.
+learner_config shipped(const char *file, int d, const char *degree)
 {
-    const double reference[] = {0, 0, 0.17, -0.7, 0.7, 0.7, 0.87};
-    Case c{kind, 7, 0, 100000, 60, 0, 0.3, learner_config_default(7, 3)};
-    c.config.features = LEARNER_POLYNOMIAL;
-    c.config.degree = degree;
-    std::copy(std::begin(reference), std::end(reference), c.config.reference);
-    for (double &psi0 : c.config.psi0)
-        psi0 = 1e-4;
-    for (double &sigma0 : c.config.sigma0)
-        sigma0 = 10;
-    c.config.hyper_psi = c.config.prior_psi = INFINITY;
-    c.config.hyper_sigma = 14;
-    c.config.prior_sigma = 128;
-    c.config.ridge = 0.01;
-    c.config.inherit = true;
-    c.config.clustering = LEARNER_CLUSTER_LEADER;
-    c.config.gamma_floor = 0.05;
-    c.config.capacity = 1;
-    while (c.config.capacity < 1024) {
-        c.config.capacity++;
-        if (learner_memory(&c.config) > most_bytes) {
-            c.config.capacity--;
-            break;
-        }
-    }
-    c.experts = c.config.capacity;
+    const char *params[] = {"psi0=1e-4", degree};
+    const learner_sources sources = {LEARNER_IMLE, d, 3, &file, 1, params, degree ? 2 : 1};
+    learner_config config;
+    char error[1024];
+    if (learner_options_load(&sources, &config, error, sizeof error))
+        throw std::runtime_error(error);
+    return config;
+}
+
+// Experts linear in monomials, each of a tool of its own, as many as the configuration holds.
+Case polynomial(const learner_config &config)
+{
+    static const char *const names[] = {"",        "affine",  "quadratic", "cubic",
+                                        "quartic", "quintic", "sextic"};
+    Case c{names[config.degree], config.n_inputs, config.capacity, 100000, 60, 0, 0.3, config};
     return c;
+}
+
+// With fewer features more experts fit into the same bytes.
+learner_config as_large_as(const learner_config &larger, learner_config config)
+{
+    size_t bytes = learner_memory(&larger);
+    config.capacity = 1024;
+    while (config.capacity > 1 && learner_memory(&config) > bytes)
+        config.capacity--;
+    return config;
 }
 
 #ifdef REACH_BENCH_TICK
@@ -73,6 +73,9 @@ Case tick(int experts)
 
 std::vector<Case> all_cases()
 {
+    const char *icub = REACH_ETC_DIR "/learner-icub.yaml";
+    const char *kobian = REACH_ETC_DIR "/learner-kobian-offline.yaml";
+    learner_config rich = shipped(icub, 7, nullptr);
     return {
         linear(7, 40, 0.013, 20000, 0.14),
         linear(7, 130, 0.008, 10000, 0.3),
@@ -82,8 +85,9 @@ std::vector<Case> all_cases()
         linear(4, 130, 0.005, 10000, 0.3),
         linear(4, 280, 0.003, 10000, 1.0, 0.2),
         linear(4, 1000, 0.0015, 5000, 1.0),
-        polynomial("cubic", 3),
-        polynomial("quartic", 4),
+        polynomial(rich),
+        polynomial(as_large_as(rich, shipped(icub, 7, "degree=3"))),
+        polynomial(shipped(kobian, 4, nullptr)),
 #ifdef REACH_BENCH_TICK
         tick(1000),
 #endif

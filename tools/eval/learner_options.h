@@ -10,6 +10,10 @@
 #include "daemon/learner.h"
 #include "tools/eval/json.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct learner_sources {
     enum learner_kind kind;
     int n_inputs;
@@ -34,4 +38,7 @@ void learner_options_print(enum learner_kind kind, int n_inputs, int n_outputs, 
 /* One entry a parameter; arrays in full, infinity as the text ".inf". */
 void learner_options_to_json(const struct learner_config *config, struct json *json);
 
+#ifdef __cplusplus
+}
+#endif
 #endif
