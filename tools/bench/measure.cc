@@ -45,12 +45,23 @@ struct Field {
     }
 };
 
+// With its published parameters; it decides itself how many fields the stream needs.
+learner_config lwpr_config(const Case &c)
+{
+    learner_config config = learner_config_default(c.d, D);
+    config.kind = LEARNER_LWPR;
+    config.capacity = 8192;
+    return config;
+}
+
 Field enter(const Case &c)
 {
     Field field;
     field.ours = std::make_unique<Contestant>(make_learner(c.config));
-    if (c.config.features == LEARNER_LINEAR)
+    if (c.config.features == LEARNER_LINEAR) {
         field.textbook = std::make_unique<Contestant>(make_textbook(c.config));
+        field.lwpr = std::make_unique<Contestant>(make_learner(lwpr_config(c)));
+    }
     return field;
 }
 

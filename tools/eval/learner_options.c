@@ -226,12 +226,20 @@ int learner_options_load(const struct learner_sources *sources, struct learner_c
 
 const char *learner_options_shipped(enum learner_kind kind, int n_inputs, int n_outputs)
 {
-    if (kind != LEARNER_IMLE || n_outputs != 3)
-        return NULL;
-    if (n_inputs == 7)
-        return REACH_ETC_DIR "/learner-icub.yaml";
-    if (n_inputs == 4)
-        return REACH_ETC_DIR "/learner-kobian-offline.yaml";
+    static const struct {
+        enum learner_kind kind;
+        int n_inputs;
+        const char *path;
+    } shipped[] = {
+        {LEARNER_IMLE, 7, REACH_ETC_DIR "/learner-icub.yaml"},
+        {LEARNER_IMLE, 4, REACH_ETC_DIR "/learner-kobian-offline.yaml"},
+        {LEARNER_LWPR, 7, REACH_ETC_DIR "/learner-icub-lwpr.yaml"},
+        {LEARNER_LWPR, 4, REACH_ETC_DIR "/learner-kobian-offline-lwpr.yaml"},
+    };
+
+    for (size_t i = 0; i < sizeof shipped / sizeof shipped[0] && n_outputs == 3; i++)
+        if (shipped[i].kind == kind && shipped[i].n_inputs == n_inputs)
+            return shipped[i].path;
     return NULL;
 }
 

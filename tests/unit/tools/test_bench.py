@@ -44,7 +44,7 @@ class Measured(unittest.TestCase):
         for found in (update, predict):
             self.assertEqual((found["d"], found["D"], found["experts"]), (4, 3, 40))
             self.assertEqual(found["calls"], 120)
-            for who in ("ours_us", "textbook_us"):
+            for who in ("ours_us", "textbook_us", "lwpr_us"):
                 values = [found[who][key] for key in TIMES]
                 self.assertEqual(values, sorted(values))
                 self.assertGreater(values[0], 0)
@@ -55,6 +55,7 @@ class Measured(unittest.TestCase):
         # Both learned the same samples, so that they are equally large.
         self.assertAlmostEqual(update["textbook_experts"], 40, delta=2)
         self.assertTrue(1 < update["concerned"] < 20)
+        self.assertGreater(update["lwpr_fields"], 3)
         self.assertGreaterEqual(predict["solutions"], 1)
 
     def test_the_tick_of_a_daemon_with_many_experts(self):

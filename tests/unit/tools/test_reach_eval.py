@@ -220,15 +220,17 @@ class Numbers(Fixture):
         self.assertRegex(listed, r"hyper_sigma .*\n +default 8\n")  # 2^d
 
     def test_shipped_configurations_are_taken(self):
-        arm = np.random.default_rng(1).uniform(-1, 1, (30, 10))
-        result = run("--learner", "imle", "--inputs", 7, "--outputs", 3, "--json", self.json,
-                     "--train", self.write("arm.csv", arm))  # fmt: skip
-        self.assertEqual(result.returncode, 0, result.stderr)
-        (config,) = json.loads(self.json.read_text())["config"]
-        self.assertEqual(Path(config).name, "learner-icub.yaml")
-        for path in sorted((SOURCE / "etc").glob("learner-icub*.yaml")):
-            result = run("--learner", "imle", "--inputs", 7, "--outputs", 3, "--json", self.json,
-                         "--config", path, "--train", self.folder / "arm.csv")  # fmt: skip
+        rng = np.random.default_rng(1)
+        for n, robot in ((7, "icub"), (4, "kobian-offline")):
+            train = self.write(f"{n}.csv", rng.uniform(-1, 1, (30, n + 3)))
+            shape = ["--inputs", n, "--outputs", 3, "--json", self.json, "--train", train]
+            for learner, name in (("imle", robot), ("lwpr", f"{robot}-lwpr")):
+                result = run("--learner", learner, *shape)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                (config,) = json.loads(self.json.read_text())["config"]
+                self.assertEqual(Path(config).name, f"learner-{name}.yaml")
+            linear = SOURCE / f"etc/learner-{robot}-linear.yaml"
+            result = run("--learner", "imle", *shape, "--config", linear)
             self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_help_and_version(self):
