@@ -7,6 +7,12 @@ set(REACH_TEST_OPTIMISATION $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:RelWithDebI
 pkg_check_modules(CHECK REQUIRED IMPORTED_TARGET check)
 set(REACH_TEST_ENVIRONMENT
     "REACH_SOURCE_DIR=${CMAKE_SOURCE_DIR};REACH_BUILD_DIR=${CMAKE_BINARY_DIR}")
+set(REACH_TEST_PATIENCE 1) # times every limit below
+if(REACH_SANITIZE)
+  # Instrumented programs take up to ten times as long.
+  set(REACH_TEST_PATIENCE 6)
+  list(APPEND REACH_TEST_ENVIRONMENT CK_TIMEOUT_MULTIPLIER=${REACH_TEST_PATIENCE})
+endif()
 
 function(reach_unit_test name)
   cmake_parse_arguments(T "NETNS;NO_ROUTE" "" "SOURCES;LIBS" ${ARGN})
@@ -21,7 +27,8 @@ function(reach_unit_test name)
     set(namespace ${CMAKE_SOURCE_DIR}/tools/netns.sh --no-route)
   endif()
   add_test(NAME ${name} COMMAND ${namespace} $<TARGET_FILE:${name}>)
-  set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT 120
+  math(EXPR timeout "120 * ${REACH_TEST_PATIENCE}")
+  set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT ${timeout}
     ENVIRONMENT "${REACH_TEST_ENVIRONMENT}")
 endfunction()
 
@@ -41,6 +48,7 @@ function(reach_python_test name script)
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 120)
   endif()
+  math(EXPR T_TIMEOUT "${T_TIMEOUT} * ${REACH_TEST_PATIENCE}")
   add_test(NAME ${name}
     COMMAND ${namespace} ${REACH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${T_ARGS})
   set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} ENVIRONMENT

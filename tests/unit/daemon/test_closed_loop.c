@@ -234,7 +234,7 @@ START_TEST(the_arm_follows_the_head)
         request.disparity[i] = 20;
     ask(request);
     for (int i = 0; i < 3000 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
-        double error[2];
+        double error[3];
         step();
         fake_robot_image(&world.robot, error);
         if (world.outputs.status.phase == REACH_STATUS_T_TRACK)
