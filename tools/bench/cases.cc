@@ -84,7 +84,7 @@ std::vector<Case> all_cases()
         linear(4, 40, 0.010, 20000, 0.14),
         linear(4, 130, 0.005, 10000, 0.3),
         linear(4, 280, 0.003, 10000, 1.0, 0.2),
-        linear(4, 1000, 0.0015, 5000, 1.0),
+        linear(4, 1000, 0.002, 10000, 1.0, 0.5),
         polynomial(rich),
         polynomial(as_large_as(rich, shipped(icub, 7, "degree=3"))),
         polynomial(shipped(kobian, 4, nullptr)),
