@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from .figures import COLOURS, PAPER
 from .programs import BINARIES, ROOT
 
-COLUMNS = ("ours", "textbook", "lwpr")
+RIVALS = ("ours", "textbook", "lwpr")
+LIMIT = 1000  # us that a call may take
 
 
 def _times(row: dict, who: str) -> str:
@@ -49,29 +50,36 @@ def table(rows: list[dict]) -> str:
 def _curve(axis, rows: list[dict], who: str, colour: str) -> None:
     known = [row for row in rows if row[f"{who}_us"]]
     experts = [row["experts"] for row in known]
-    for key, style in (("p50", "o-"), ("p999", "^--")):
-        name = {"p50": "median", "p999": "99.9 %"}[key]
+    name = {"ours": "ours", "textbook": "textbook", "lwpr": "LWPR, with its own fields"}[who]
+    for key, style, share in (("p50", "o-", "median"), ("p999", "^--", "99.9 %")):
         values = [row[f"{who}_us"][key] for row in known]
-        axis.plot(experts, values, style, color=colour, markersize=4, label=f"{who}, {name}")
+        axis.plot(experts, values, style, color=colour, markersize=4, label=f"{name}, {share}")
+
+
+def _panel(axis, rows: list[dict], call: str, d: int) -> None:
+    experts = [row["experts"] for row in rows]
+    for who, colour in zip(RIVALS, (COLOURS["hand"], COLOURS["tool"], "#3c8040"), strict=True):
+        if any(row[f"{who}_us"] for row in rows):
+            _curve(axis, rows, who, colour)
+    axis.plot(experts, [row["stream_us"] for row in rows], ":", color=PAPER,
+              label="reading the experts once")  # fmt: skip
+    axis.axhline(LIMIT, color="#b02020", lw=0.8, label="limit: 1 ms")
+    axis.set(xscale="log", yscale="log", ylim=(2, 1e5), title=f"{call}, d = {d}, D = 3",
+             xlabel="experts", ylabel="µs")  # fmt: skip
+    axis.set_xticks(experts, [str(n) for n in experts])
+    axis.minorticks_off()
 
 
 def picture(rows: list[dict]) -> Figure:
     """Cost against experts, linear ones, with the bound of reading their bytes once."""
-    figure = Figure(figsize=(9.0, 7.0), layout="constrained")
+    figure = Figure(figsize=(9.0, 7.6), layout="constrained")
     axes = figure.subplots(2, 2, squeeze=False)
     for i, d in enumerate((7, 4)):
         for k, call in enumerate(("update", "predict")):
-            axis = axes[i][k]
             here = [row for row in rows if row["d"] == d and row["name"] == call]
-            for who, colour in zip(COLUMNS, (COLOURS["hand"], COLOURS["tool"], "#3c8040"),
-                                   strict=True):  # fmt: skip
-                if any(row[f"{who}_us"] for row in here):
-                    _curve(axis, here, who, colour)
-            axis.plot([row["experts"] for row in here], [row["stream_us"] for row in here], ":",
-                      color=PAPER, label="reading the experts once")  # fmt: skip
-            axis.set(xscale="log", yscale="log", title=f"{call}, d = {d}, D = 3",
-                     xlabel="experts", ylabel="µs")  # fmt: skip
-    axes[0][0].legend(fontsize=8)
+            _panel(axes[i][k], here, call, d)
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
     return figure
 
 
