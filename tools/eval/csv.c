@@ -60,6 +60,8 @@ static int next_line(struct reader *reader)
     size_t length = strlen(reader->text);
     if (length == LONGEST_LINE - 1)
         return fail(reader, "the line is too long for a row of numbers");
+    if ((length == 0 || reader->text[length - 1] != '\n') && !gzeof(reader->file))
+        return fail(reader, "the line holds a zero byte");
     while (length > 0 && strchr("\r\n", reader->text[length - 1]))
         reader->text[--length] = '\0';
     return 1;

@@ -255,6 +255,7 @@ class Mistakes(Fixture):
         for content, where, reason in (
             (good + "1,2,3,4\n", ":2: ", "4 columns, the lines before have 5"),
             (good + "1,2,3,4,5,6\n", ":2: ", "6 columns"),
+            (good + "1,2,3,4,5\0,6\n", ":2: ", "zero byte"),
             (good + good + "1,2,nan,4,5\n", ":3: ", "column 3: 'nan' is not a finite number"),
             (good + "1,2,3,inf,5\n", ":2: ", "column 4: 'inf'"),
             (good + "1,2,3,4,five\n", ":2: ", "column 5: 'five'"),
