@@ -148,11 +148,18 @@ void report_to_json(const struct report *report, FILE *out)
     json_end_object(&json);
 }
 
+static void print_times(const char *call, const struct durations_summary *times, FILE *out)
+{
+    if (times->n > 0)
+        fprintf(out, ", %s %.1f us (99.9 %%: %.1f)", call, times->p50, times->p999);
+}
+
 void report_print(const struct request *request, const struct report_result *result, FILE *out)
 {
-    fprintf(out, "%zu samples, %d experts, update %.1f us (p99.9 %.1f), predict %.1f us (%.1f)\n",
-            result->at, result->statistics.experts, result->update.p50, result->update.p999,
-            result->predict.p50, result->predict.p999);
+    fprintf(out, "%zu samples, %d experts", result->at, result->statistics.experts);
+    print_times("update", &result->update, out);
+    print_times("predict", &result->predict, out);
+    fputc('\n', out);
     for (int i = 0; i < request->n_sets; i++) {
         const struct score_test *test = &result->sets[i].test;
         const struct score_track *track = &result->sets[i].track;
