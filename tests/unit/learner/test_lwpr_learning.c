@@ -49,19 +49,23 @@ static double error_on_cross(double init_d, double init_alpha, int *fields)
     return sqrt(sum / 2000.0);
 }
 
+/* Over three draws, since a single field that widens in its first samples spoils a draw. */
 START_TEST(metrics_are_learned)
 {
+    double fixed = 0.0, learned = 0.0;
     int kept, narrowed, fields;
 
     bed_seed();
-    double fixed = error_on_cross(30.0, 0.0, &kept);
-    double learned = error_on_cross(30.0, 250.0, &narrowed);
+    for (int n = 0; n < 3; n++) {
+        fixed += error_on_cross(30.0, 0.0, &kept) / 3.0;
+        learned += error_on_cross(30.0, 250.0, &narrowed) / 3.0;
+        ck_assert_int_gt(narrowed, kept);
+    }
     double fine = error_on_cross(100.0, 250.0, &fields);
     printf("RMSE on the cross: init_d 30 and kept %.3f (%d fields), learned %.3f (%d); "
            "init_d 100 %.3f (%d)\n",
            fixed, kept, learned, narrowed, fine, fields);
-    ck_assert_double_lt(learned, 0.95 * fixed);
-    ck_assert_int_gt(narrowed, kept);
+    ck_assert_double_lt(learned, 0.9 * fixed);
     ck_assert_double_lt(fine, 0.06);
 }
 END_TEST
