@@ -13,38 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-# Where the tip lies from the palm: along the stick's axis a, and b across it (m).
-_A = np.array([np.cos(np.radians(20)), np.sin(np.radians(20)), 0])
-_B = np.array([-np.sin(np.radians(20)), np.cos(np.radians(20)), 0])
-TOOLS = {"none": 0 * _A, "stick": 0.28 * _A, "L": 0.48 * _A + 0.30 * _B}
+from .arm import TOOLS, Arm
+
 LARGEST_ERROR = 0.01  # m: a position farther off belongs to another arm or tool
-
-
-def _turn(v: np.ndarray, angle: np.ndarray, i: int, k: int) -> np.ndarray:
-    """Turns the plane of axes i and k, from i towards k."""
-    turned = v.copy()
-    turned[..., i] = np.cos(angle) * v[..., i] - np.sin(angle) * v[..., k]
-    turned[..., k] = np.sin(angle) * v[..., i] + np.cos(angle) * v[..., k]
-    return turned
-
-
-def tip(q: np.ndarray, tool: np.ndarray) -> np.ndarray:
-    """q: n x 7 (real or complex). Rotation about x goes from y to z, about y from z to x."""
-    v = np.zeros((*q.shape[:-1], 3), q.dtype) + tool + np.array([0, 0, -0.197])
-    v = _turn(v, -q[..., 6], 2, 0)
-    v = _turn(v, -q[..., 5], 0, 1) + np.array([0, 0, -0.152])
-    v = _turn(v, -q[..., 4], 1, 2)
-    v = _turn(v, q[..., 3], 2, 0) + np.array([0, -0.11, 0.18])
-    v = _turn(v, q[..., 2], 2, 0)
-    v = _turn(v, q[..., 1], 1, 2)
-    return _turn(v, q[..., 0], 0, 1)
-
-
-def jacobian(q: np.ndarray, tool: np.ndarray) -> np.ndarray:
-    """n x 3 x 7, by complex steps: exact to rounding."""
-    step = 1e-30
-    columns = [tip(q + 1j * step * np.eye(7)[k], tool).imag / step for k in range(7)]
-    return np.stack(columns, axis=-1)
 
 
 def _open(path: Path, mode: str):
@@ -72,14 +43,14 @@ def main() -> int:
     if rows.shape[1] != 10:
         print(f"arm_jacobians: {options.source}: {rows.shape[1]} columns, not 10", file=sys.stderr)
         return 1
-    q, tool = rows[:, :7], TOOLS[options.tool]
-    error = np.abs(tip(q, tool) - rows[:, 7:]).max(axis=1)
+    arm, q, tool = Arm(), rows[:, :7], TOOLS[options.tool]
+    error = np.abs(arm.tip(q, tool) - rows[:, 7:]).max(axis=1)
     if error.max() > LARGEST_ERROR:
         print(f"arm_jacobians: {options.source}: row {error.argmax() + 1} is {error.max():.3f} m"
               f" off this arm with tool {options.tool}", file=sys.stderr)  # fmt: skip
         return 1
     with _open(options.target, "w") as file:
-        np.savetxt(file, np.hstack([rows, jacobian(q, tool).reshape(-1, 21)]), "%.9g", ",")
+        np.savetxt(file, np.hstack([rows, arm.jacobian(q, tool).reshape(-1, 21)]), "%.9g", ",")
     return 0
 
 

@@ -10,7 +10,8 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
-from reach import arm_jacobians as arm
+from reach import arm_jacobians
+from reach.arm import TOOLS, Arm
 
 
 def rotation(axis: int, angle: float) -> np.ndarray:
@@ -41,14 +42,14 @@ class ArmJacobians(unittest.TestCase):
         errors = io.StringIO()
         argv = ["arm_jacobians", *map(str, words)]
         with mock.patch.object(sys, "argv", argv), contextlib.redirect_stderr(errors):
-            return arm.main(), errors.getvalue()
+            return arm_jacobians.main(), errors.getvalue()
 
     def test_tip_and_derivative(self):
-        tool, step = arm.TOOLS["L"], 1e-6
+        tool, step = TOOLS["L"], 1e-6
         np.testing.assert_allclose(
-            arm.tip(self.q, tool), [tip(q, tool) for q in self.q], atol=1e-14
+            Arm().tip(self.q, tool), [tip(q, tool) for q in self.q], atol=1e-14
         )
-        found = arm.jacobian(self.q, tool)
+        found = Arm().jacobian(self.q, tool)
         for q, J in zip(self.q, found, strict=True):
             for k in range(7):
                 d = step * np.eye(7)[k]
@@ -56,14 +57,14 @@ class ArmJacobians(unittest.TestCase):
                 np.testing.assert_allclose(J[:, k], difference, atol=1e-8)
 
     def test_columns_are_appended(self):
-        rows = np.hstack([self.q, arm.tip(self.q, arm.TOOLS["stick"])])
+        rows = np.hstack([self.q, Arm().tip(self.q, TOOLS["stick"])])
         source, target = self.folder / "a.csv.gz", self.folder / "b.csv.gz"
         with gzip.open(source, "wt") as file:
             np.savetxt(file, rows, "%.6f", ",", header="q1,q2,q3,q4,q5,q6,q7,x,y,z", comments="")
         self.assertEqual(self.run_main("--tool", "stick", source, target), (0, ""))
         result = np.loadtxt(target, delimiter=",")
         np.testing.assert_allclose(result[:, :10], rows, atol=1e-6)
-        J = arm.jacobian(self.q, arm.TOOLS["stick"])
+        J = Arm().jacobian(self.q, TOOLS["stick"])
         np.testing.assert_allclose(result[:, 10:], J.reshape(20, 21), atol=1e-5)
         code, error = self.run_main("--tool", "none", source, target)
         self.assertEqual(code, 1)

@@ -1,0 +1,125 @@
+"""`./run accuracy`: how accurate the shipped learner is, on streams of our own making.
+
+Every study (reach.studies) is drawn several times; build/bin/reach-eval learns and measures. What
+remains in the folder: accuracy.json, table.md.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+from .programs import BINARIES, ROOT
+from .progress import Progress
+from .studies import Study, studies
+
+
+class EvaluationError(Exception):
+    """One line for the user."""
+
+
+def evaluate(study: Study, draw: int, parameters: list[str]) -> dict:
+    """reach-eval's results by number of samples."""
+    seed = [zlib.crc32(study.name.encode()), draw]
+    counts = sorted({bar.at for bar in study.bars})
+    with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
+        folder = Path(name)
+        files = study.make(folder, np.random.default_rng(seed))
+        report = folder / "report.json"
+        command = [BINARIES / "reach-eval", "--learner", "imle", "--quiet",
+                   "--inputs", study.dimensions[0], "--outputs", study.dimensions[1],
+                   "--train", ",".join(map(str, files.train)),
+                   "--at", ",".join(map(str, counts)), "--json", report]  # fmt: skip
+        for option, paths in (("--test", files.test), ("--track", files.track)):
+            for key, path in paths.items():
+                command += [option, f"{key}={path}"]
+        for parameter in (*study.parameters, *parameters):
+            command += ["--param", parameter]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if done.returncode != 0:
+            raise EvaluationError(done.stderr.strip())
+        return {result["at"]: result for result in json.loads(report.read_text())["results"]}
+
+
+def rows_of(study: Study, draws: list[dict]) -> list[dict]:
+    rows = []
+    for bar in study.bars:
+        values = [float(bar.value(results[bar.at])) for results in draws]
+        mean = float(np.mean(values))
+        rows.append({
+            "study": study.name, "metric": bar.name, "unit": bar.unit, "mean": mean,
+            "std": float(np.std(values)), "least": min(values), "greatest": max(values),
+            "n": len(values), "bar": bar.most, "target": bar.target, "met": bar.met(mean),
+        })  # fmt: skip
+    return rows
+
+
+def table(rows: list[dict], what: dict[str, str]) -> str:
+    lines = ["| study | | mean | spread | wanted | |", "|---|---|---|---|---|---|"]
+    named = ""
+    for row in rows:
+        wanted = (f"at most {row['bar']:g}" if row["target"] is None
+                  else f"{row['target']:g} +- {row['bar']:g}")  # fmt: skip
+        study = what[row["study"]] if row["study"] != named else ""
+        named = row["study"]
+        lines.append(f"| {study} | {row['metric']} | {row['mean']:.3g} {row['unit']} |"
+                     f" {row['least']:.3g} .. {row['greatest']:.3g} | {wanted} |"
+                     f" {'met' if row['met'] else 'NOT met'} |")  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def run(options: argparse.Namespace) -> list[dict]:
+    chosen = [s for s in studies(options.quick) if not options.only or s.name in options.only]
+    progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
+    rows: list[dict] = []
+    for study in chosen:
+        draws = []
+        for draw in range(options.draws):
+            progress.update(study.name, draw / options.draws, f"draw {draw + 1}")
+            draws.append(evaluate(study, draw, options.param))
+        rows += rows_of(study, draws)
+        missed = [row["metric"] for row in rows if row["study"] == study.name and not row["met"]]
+        progress.finish(study.name, f"not met: {', '.join(missed)}" if missed else "all met")
+        options.out.mkdir(parents=True, exist_ok=True)
+        summary = {"draws": options.draws, "quick": options.quick, "param": options.param}
+        summary["rows"] = rows
+        (options.out / "accuracy.json").write_text(json.dumps(summary, indent=1) + "\n")
+        (options.out / "table.md").write_text(table(rows, {s.name: s.what for s in chosen}))
+    return rows
+
+
+def parse(arguments: list[str] | None) -> argparse.Namespace:
+    names = [study.name for study in studies(True)]
+    parser = argparse.ArgumentParser(prog="./run accuracy", description=__doc__.splitlines()[0])
+    parser.add_argument("--draws", type=int, default=5, help="of every study; default 5")
+    parser.add_argument("--quick", action="store_true", help="a fifth of the samples")
+    parser.add_argument("--only", nargs="+", choices=names, metavar="STUDY",
+                        help=f"of {', '.join(names)}")  # fmt: skip
+    parser.add_argument("--param", action="append", default=[], metavar="NAME=VALUE",
+                        help="a parameter of the learner, over what ships")  # fmt: skip
+    parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
+    options = parser.parse_args(arguments)
+    if options.draws < 1:
+        parser.error("--draws must be at least 1")
+    return options
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parse(arguments)
+    try:
+        run(options)
+    except (EvaluationError, OSError) as error:
+        print(f"accuracy: {error}", file=sys.stderr)
+        return 1
+    print((options.out / "table.md").read_text(), end="")
+    print(f"accuracy: {options.out}/accuracy.json has every number")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
