@@ -47,6 +47,7 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
     select_init(&tick->selection, config_arm_joints(config), VISUAL_DIMENSIONS, scale);
+    context_init(&tick->context);
     gaze_init(&tick->gaze, config);
     safety_init(&tick->safety, config);
     return tick;
@@ -114,6 +115,7 @@ static void sense(struct tick *tick)
     if (tick->state_seq_now) {
         select_integrate(&tick->selection, tick->q);
         select_solution(&tick->selection, tick->learner, tick->q);
+        context_follow(&tick->context, &tick->selection);
     }
     sight_carry(&tick->sight, tick->q, select_jacobian(&tick->selection));
 }

@@ -4,6 +4,7 @@
 #define REACH_TICK_PRIVATE_H
 
 #include "behaviour.h"
+#include "context.h"
 #include "gaze.h"
 #include "history.h"
 #include "safety.h"
@@ -21,6 +22,7 @@ struct tick {
     struct history history;
     struct sight sight;
     struct selection selection;
+    struct context context;
     struct gaze gaze;
     struct safety safety;
     struct behaviour behaviour;
@@ -29,6 +31,7 @@ struct tick {
     enum supervisor_state state;
     bool state_known;
     bool reset_requested;
+    bool loading; /* the request that is pending replaces the model */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */
     int64_t state_seq;    /* newest good state */

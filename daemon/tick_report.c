@@ -79,6 +79,8 @@ static void report_model(const struct tick *tick, reach_status_t *status)
     status->experts = learner_get_statistics(tick->learner).experts;
     status->solutions = selection->prediction.n_solutions;
     status->solution = selection->solution;
+    status->contexts = tick->context.count;
+    status->context = tick->context.current;
     status->n_outputs = selection->n_outputs;
     if (value)
         memcpy(status->x_predicted, value, sizeof status->x_predicted);

@@ -40,9 +40,8 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
                    : REACH_STATUS_T_REFUSED_STATE;
     case REACH_REQUEST_T_LOAD:
         /* The model must not change under a behaviour that steers by it. */
-        return may_start(tick) && model_store_begin_load(tick->store, request->count)
-                   ? REACH_STATUS_T_PENDING
-                   : REACH_STATUS_T_REFUSED_STATE;
+        tick->loading = may_start(tick) && model_store_begin_load(tick->store, request->count);
+        return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
         return start_behaviour(tick, request, control);
     }
@@ -56,6 +55,10 @@ void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
     if (stored != MODEL_STORE_NOTHING && tick->request_result == REACH_STATUS_T_PENDING)
         tick->request_result =
             stored == MODEL_STORE_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
+    if (stored == MODEL_STORE_DONE && tick->loading)
+        context_init(&tick->context); /* its experts are others */
+    if (stored != MODEL_STORE_NOTHING)
+        tick->loading = false;
     tick->request_seq_now = 0;
     for (int i = 0; i < inputs->n_requests; i++) {
         const reach_request_t *request = &inputs->request[i];

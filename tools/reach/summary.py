@@ -132,6 +132,7 @@ def summarise(record: Record, run: dict) -> dict:
             "babbling": babbling(record, run),
             "star": {n: star(record, phase_named(run, f"star_{n}")) for n in ("hand", "tool")},
             "experts": int(last["experts"]),
+            "contexts": int(last["contexts"]),
             "solutions_mean": float(np.concatenate(tests)["solutions"].mean()),
             "marker_error_px": {"std_u": std_u, "std_v": std_v, "std_d": std_d,
                                 "mean": marker["mean"]},

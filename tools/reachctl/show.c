@@ -53,8 +53,9 @@ void show_text(const reach_status_t *status, FILE *out)
             status->progress_total, status->skipped, status->error_px);
     fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
             status->fixated ? ", fixated" : "");
-    fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d\n",
-            (long long)status->samples, status->experts, status->solutions, status->solution);
+    fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d; context %d of %d\n",
+            (long long)status->samples, status->experts, status->solutions, status->solution,
+            status->context, status->contexts);
     fprintf(out,
             "tick       %lld; %.0f us now, %.0f mean, %.0f p99.9, %.0f largest; wake-up %.0f\n",
             (long long)status->seq, status->compute_us, status->compute_mean_us,
@@ -92,6 +93,8 @@ static const struct field {
     FIELD(experts, FIELD_INT32),
     FIELD(solutions, FIELD_INT32),
     FIELD(solution, FIELD_INT32),
+    FIELD(contexts, FIELD_INT32),
+    FIELD(context, FIELD_INT32),
     FIELD(compute_us, FIELD_DOUBLE),
     FIELD(compute_mean_us, FIELD_DOUBLE),
     FIELD(compute_p999_us, FIELD_DOUBLE),

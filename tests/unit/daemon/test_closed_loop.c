@@ -167,16 +167,26 @@ static void star(double bound)
     ck_assert_int_eq(reached, 9);
 }
 
+static void expect_context(int current, int count)
+{
+    ck_assert_int_eq(world.outputs.status.context, current);
+    ck_assert_int_eq(world.outputs.status.contexts, count);
+}
+
 START_TEST(it_learns_two_tools_and_reaches_with_both)
 {
     begin();
     babble(120, true);
+    expect_context(1, 1);
     world.robot.tool = 0.35;
     babble(120, true);
     ck_assert_int_eq(world.outputs.status.solutions, 2);
+    expect_context(2, 2);
     star(3);
+    expect_context(2, 2);
     world.robot.tool = 0;
     star(3);
+    expect_context(1, 2);
     ck_assert_int_eq(world.outputs.status.gated, 0);
     end();
 }
