@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A value that moves farther than this in one tick has jumped; in units of the selection's scale, in
- * which the fastest arm moves some 0.1. */
+/* A value that moves farther than this in one tick has jumped; in units of the selection's scale,
+ * in which the fastest arm moves some 0.1. */
 static const double jump = 0.25;
 
 void context_init(struct context *context)

@@ -1,5 +1,5 @@
-/* Contexts: the situations (hand, a tool) that the robot has found itself in, counted, and which one
- * it is in now. Nobody tells; it follows from which experts the solution in use rests on.
+/* Contexts: the situations (hand, a tool) that the robot has found itself in, counted, and which
+ * one it is in now. Nobody tells; it follows from which experts the solution in use rests on.
  *
  * When the solution in use passes from one expert to another, the two belong to one context if its
  * value went on without a jump, and to two if it jumped: the same branch of the map has several

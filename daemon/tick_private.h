@@ -31,7 +31,7 @@ struct tick {
     enum supervisor_state state;
     bool state_known;
     bool reset_requested;
-    bool loading; /* the request that is pending replaces the model */
+    bool loading;         /* the request that is pending replaces the model */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */
     int64_t state_seq;    /* newest good state */
