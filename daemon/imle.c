@@ -12,6 +12,7 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
     m->d = config->n_inputs;
     m->D = config->n_outputs;
     m->p = feature_map_count(config);
+    m->small = m->p <= LEARNER_MAX_INPUTS;
 }
 
 static int check(const struct learner_config *config, char *err, size_t err_size)

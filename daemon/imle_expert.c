@@ -57,6 +57,8 @@ static void refresh_densities(struct imle *m, int j)
                           0.5 * m->d * elementary_log(2.0 * per_a);
     m->gate.log_S[j] = elementary_log(s->S);
     m->gate.half_log_psi[j] = 0.5 * elementary_log(product);
+    m->gate.log_peak[j] = m->gate.log_det[j] - m->gate.half_log_psi[j];
+    m->stale[j / IMLE_SUM] = true;
 }
 
 /* The root of Sigma^-1 is `scale` times the rows of G: its determinant, the diagonal of Sigma^-1,
@@ -83,6 +85,7 @@ void imle_expert_refresh(struct imle *m, int j)
     refresh_root(m, j, sqrt(s->prior_sigma + s->S + m->d + extra),
                  at(m->spread, j, whitener_row(m->d)));
     refresh_densities(m, j);
+    imle_regression_write(m, j);
 }
 
 /* A newborn's own Sigma and Psi, with which it enters the E-step; as published, the divisors differ
@@ -100,6 +103,8 @@ static void first_densities(struct imle *m, int j)
         psi[i] = m->psi_bar[i] / (1.0 + 2.0 / m->config.prior_psi);
     refresh_root(m, j, sqrt(w + m->d + 2.0), G);
     refresh_densities(m, j);
+    imle_regression_write(m, j);
+    m->answered[j / KERNEL_LANES] = false; /* its neighbours may have answered before it came */
 }
 
 static void first_regression(struct imle *m, int j, const double *x, int parent)
@@ -238,7 +243,8 @@ static void learn_regression(struct imle *m, int j, double h, double delta, cons
     double residual[LEARNER_MAX_OUTPUTS];
 
     imle_expert_output(m, j, xhat);
-    double gamma = imle_expert_leverage(m, j);
+    imle_expert_whiten(m, j);
+    double gamma = m->leverage;
     double left = 1.0 / (1.0 + joint / delta * gamma);
     for (int i = 0; i < m->D; i++) {
         residual[i] = x[i] - xhat[i];

@@ -3,7 +3,6 @@
  * Shares phi_j: as published  t_j / (gamma_j t_j + W),  or, with a floor g0 on the uncertainty,
  * t_j / (W (gamma_j + g0)),  W = sum of the cluster's t + p_out(z). Value and variance are those of
  * weights phi_j / Psi_j, output by output. Everything is in units of the cluster's largest t. */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -11,6 +10,10 @@
 #include "daemon/imle_private.h"
 
 static const double farthest = 1e100;
+
+/* An expert whose share, or t, is less than this of the largest does not slope the solution: all of
+ * them together change the Jacobian by less than their number times this of what theirs differ. */
+static const double negligible = 1e-8;
 
 /* One cluster at work. */
 struct fusion {
@@ -119,7 +122,7 @@ static void weight_slope(struct imle *m, struct fusion *fusion, const double *z)
     for (int a = 0; a < m->n_answers; a++) {
         struct imle_answer *answer = &m->answers[a];
         int j = answer->expert;
-        if (answer->cluster != fusion->cluster)
+        if (answer->cluster != fusion->cluster || answer->t < negligible)
             continue;
         double q = imle_gate_pull(m, j, z, answer->kappa);
         double factor = 2.0 * m->gate.exponent[j] * m->gate.per_a[j] / (1.0 + q * m->gate.per_a[j]);
@@ -130,14 +133,16 @@ static void weight_slope(struct imle *m, struct fusion *fusion, const double *z)
     }
 }
 
-static void add_to_jacobian(struct imle *m, const struct fusion *fusion,
-                            const struct imle_answer *answer, struct learner_solution *solution)
+static void add_to_jacobian(struct imle *m, const struct fusion *fusion, struct imle_answer *answer,
+                            struct learner_solution *solution)
 {
     double dshare[LEARNER_MAX_INPUTS] = {0.0};
 
     imle_expert_slope(m, answer->expert);
-    if (!m->config.average_jacobian)
+    if (!m->config.average_jacobian) {
+        imle_gamma_slope(m, answer);
         share_slope(m, fusion, answer, dshare);
+    }
     for (int i = 0; i < m->D; i++) {
         double per = 1.0 / (psi_of(m, answer)[i] * fusion->sum_precision[i]);
         double difference = answer->xhat[i] - solution->value[i];
@@ -159,9 +164,9 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
     if (!m->config.average_jacobian)
         weight_slope(m, &fusion, z);
     for (int a = 0; a < m->n_answers; a++) {
-        const struct imle_answer *answer = &m->answers[a];
-        /* A share below the rounding of the largest adds nothing but work. */
-        if (answer->cluster == cluster && answer->share >= DBL_EPSILON * fusion.largest_share)
+        struct imle_answer *answer = &m->answers[a];
+        if (answer->cluster == cluster && answer->t >= negligible &&
+            answer->share >= negligible * fusion.largest_share)
             add_to_jacobian(m, &fusion, answer, solution);
     }
 }

@@ -39,6 +39,7 @@ static void evaluate(struct imle *m, struct search *s, const double *x)
     double xhat[LEARNER_MAX_OUTPUTS];
 
     feature_map_evaluate(m->map, s->z, m->phi);
+    imle_new_query(m, NULL);
     imle_expert_output(m, s->expert, xhat);
     s->cost = imle_gate_pull(m, s->expert, s->z, s->downhill);
     for (int i = 0; i < m->D; i++) {

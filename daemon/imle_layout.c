@@ -73,6 +73,15 @@ static size_t take_scan(struct imle *m, struct arena *arena)
         {SLOT(log_t), numbers(n)},
         {SLOT(log_h), numbers(n)},
         {SLOT(q), numbers(n)},
+        {SLOT(gate.log_peak), numbers(n)},
+        {SLOT(answered), n / KERNEL_LANES + 1},
+        {SLOT(leverages), numbers(n)},
+        {SLOT(misfits), numbers(n)},
+        {SLOT(outputs), numbers(n * (size_t)m->D)},
+        {SLOT(prior_sums), numbers((n / IMLE_SUM + 1) * (size_t)(m->d + m->D))},
+        {SLOT(stale), n / IMLE_SUM + 1},
+        {SLOT(regression),
+         m->small ? numbers(n / KERNEL_LANES * imle_regression_block(m->p, m->D)) : 0},
     };
 
     return TAKE(arrays, arena);

@@ -5,13 +5,16 @@
 #include "daemon/imle_private.h"
 
 /* An expert whose share is bounded by exp(-this) of the rest is not looked at closely: all of them
- * together change a responsibility by less than M exp(-this), 1e-10 of it for 1000 experts. */
-static const double negligible = 30.0;
+ * together change a responsibility by less than M exp(-this), 1e-7 of it for 1000 experts. */
+static const double negligible = 23.0;
+
+/* The same in the sum that tells an outlier: it changes by less than 1e-8 of what decides. */
+static const double negligible_density = 18.5;
 
 /* Gating and features of the sample; false when its features are too large to compute with. */
-static bool look_at(struct imle *m, const double *z)
+static bool look_at(struct imle *m, const double *z, const double *x)
 {
-    m->whitened = -1;
+    imle_new_query(m, x);
     feature_map_evaluate(m->map, z, m->phi);
     for (int k = 0; k < m->p; k++)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
@@ -20,56 +23,50 @@ static bool look_at(struct imle *m, const double *z)
     return true;
 }
 
-/* sum (x - xhat)^2 / Psi of expert j. */
-static double misfit(struct imle *m, int j, const double *x)
-{
-    const double *psi = m->psi + (size_t)j * (size_t)m->D;
-    double xhat[LEARNER_MAX_OUTPUTS];
-    double sum = 0.0;
-
-    imle_expert_output(m, j, xhat);
-    for (int i = 0; i < m->D; i++)
-        sum += (x[i] - xhat[i]) * (x[i] - xhat[i]) / psi[i];
-    return sum;
-}
-
-/* p_j(z, x) in units of exp(log_unit), cut at e. */
-static double joint_density(struct imle *m, int j, const double *x, double log_unit)
+/* p_j(z, x) in units of exp(log_unit), cut at e; m->log_h[j] is what its logarithm can be at most.
+ */
+static double joint_density(struct imle *m, int j, double log_unit)
 {
     double inflation = 1.0 + imle_expert_gamma(m, j);
-    double log_p = m->log_t[j] - m->gate.half_log_psi[j] - 0.5 * m->D * elementary_log(inflation) -
-                   0.5 * misfit(m, j, x) / inflation;
+    double log_p = m->log_h[j] - log_unit - 0.5 * imle_expert_misfit(m, j) / inflation;
 
-    return elementary_exp(fmin(log_p - log_unit, 1.0));
+    if (log_p < -negligible)
+        return 0.0;
+    return elementary_exp(fmin(log_p - 0.5 * m->D * elementary_log(inflation), 1.0));
+}
+
+/* The first expert with that m->log_h. */
+static int index_of(const struct imle *m, double log_h)
+{
+    int j = 0;
+
+    while (j < m->M - 1 && m->log_h[j] < log_h)
+        j++;
+    return j;
 }
 
 /* m->log_h becomes the largest that log p_j(z, x) can be: the residual only lowers it. Returns the
  * expert where that is largest. */
 static int bound_densities(struct imle *m)
 {
-    int best = 0;
+    double largest = m->kernels->bounds(m->M, m->log_t, -1.0, m->gate.half_log_psi, m->log_h);
 
-    for (int j = 0; j < m->M; j++)
-        m->log_h[j] = m->log_t[j] - m->gate.half_log_psi[j];
-    for (int j = 1; j < m->M; j++)
-        if (m->log_h[j] > m->log_h[best])
-            best = j;
-    return best;
+    return index_of(m, largest);
 }
 
 /* sum_j p_j(z, x) < p_out(z, x) / M. The gating alone tells which experts cannot matter; the sum
  * begins where most is to be expected, and ends as soon as it is large enough. */
-static bool is_outlier(struct imle *m, const double *x)
+static bool is_outlier(struct imle *m)
 {
     if (m->M == 0)
         return true;
     double log_M = elementary_log(m->M);
     double threshold = imle_log_outlier_joint(m) - log_M;
     int best = bound_densities(m);
-    double sum = joint_density(m, best, x, threshold);
+    double sum = joint_density(m, best, threshold);
     for (int j = 0; j < m->M && sum < 1.0; j++)
-        if (j != best && m->log_h[j] >= threshold - log_M - negligible)
-            sum += joint_density(m, j, x, threshold);
+        if (j != best && m->log_h[j] >= threshold - log_M - negligible_density)
+            sum += joint_density(m, j, threshold);
     return sum < 1.0;
 }
 
@@ -87,30 +84,25 @@ static int parent_of_newborn(const struct imle *m)
 /* m->log_h becomes log h_j before normalising, were x met exactly; returns where it is largest. */
 static int bound_responsibilities(struct imle *m)
 {
-    int best = 0;
+    double largest = m->kernels->bounds(m->M, m->gate.log_peak, -0.5, m->q, m->log_h);
 
-    for (int j = 0; j < m->M; j++)
-        m->log_h[j] = m->gate.log_det[j] - 0.5 * m->q[j] - m->gate.half_log_psi[j];
-    for (int j = 1; j < m->M; j++)
-        if (m->log_h[j] > m->log_h[best])
-            best = j;
-    return best;
+    return index_of(m, largest);
 }
 
 /* m->order lists the experts that may have a share, m->log_h their log h_j before normalising.
  * Returns how many; *largest is the largest. */
-static int gather_shares(struct imle *m, const double *x, double *largest)
+static int gather_shares(struct imle *m, double *largest)
 {
     int best = bound_responsibilities(m);
-    double best_log_h = m->log_h[best] - 0.5 * misfit(m, best, x);
+    double best_log_h = m->log_h[best] - 0.5 * imle_expert_misfit(m, best);
     int n = 0;
 
     *largest = best_log_h;
     for (int j = 0; j < m->M; j++) {
         if (m->log_h[j] < *largest - negligible)
             continue;
-        m->log_h[j] = j == best ? best_log_h : m->log_h[j] - 0.5 * misfit(m, j, x);
-        *largest = fmax(*largest, m->log_h[j]);
+        m->log_h[j] = j == best ? best_log_h : m->log_h[j] - 0.5 * imle_expert_misfit(m, j);
+        *largest = m->log_h[j] > *largest ? m->log_h[j] : *largest;
         m->order[n++] = j;
     }
     return n;
@@ -121,7 +113,7 @@ static int gather_shares(struct imle *m, const double *x, double *largest)
 static void learn_shares(struct imle *m, const double *z, const double *x, int newborn)
 {
     double largest = 0.0;
-    int n = gather_shares(m, x, &largest);
+    int n = gather_shares(m, &largest);
     double sum = 0.0;
 
     if (newborn >= 0 && (n == 0 || m->order[n - 1] != newborn))
@@ -142,9 +134,9 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 {
     int newborn = -1;
 
-    if (!look_at(m, z))
+    if (!look_at(m, z, x))
         return LEARNER_REFUSED;
-    if (is_outlier(m, x)) {
+    if (is_outlier(m)) {
         if (m->outliers_in_row < m->config.n_outliers) {
             m->outliers_in_row++;
             return LEARNER_OUTLIER;

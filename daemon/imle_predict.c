@@ -6,8 +6,8 @@
 #include "daemon/imle_private.h"
 
 /* An expert whose t is below exp(-this) of the largest is left out: all of them together move a
- * solution by less than M exp(-this) of what they differ from it, 1.4e-8 for 1000 experts. */
-static const double negligible = 25.0;
+ * solution by less than M exp(-this) of what they differ from it, 2e-6 for 1000 experts. */
+static const double negligible = 20.0;
 
 /* p_out(z) in units of the largest t is cut here: beyond it a solution has no weight anyway. */
 static const double farthest = 1e100;
@@ -17,7 +17,7 @@ static bool look_at(struct imle *m, const double *z)
 {
     if (m->M == 0)
         return false;
-    m->whitened = -1;
+    imle_new_query(m, NULL);
     feature_map_evaluate(m->map, z, m->phi);
     for (int k = 0; k < m->p; k++)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
@@ -27,28 +27,50 @@ static bool look_at(struct imle *m, const double *z)
     return true;
 }
 
-static double largest_of(const double *numbers, int n)
-{
-    double largest = -INFINITY;
-
-    for (int j = 0; j < n; j++)
-        largest = numbers[j] > largest ? numbers[j] : largest;
-    return largest;
-}
-
-/* m->order lists the experts with m->log_h not over `limit`, in the order of age; of more than
- * IMLE_MOST_ANSWERS those where it is smallest. Returns how many. */
-static int choose_experts(struct imle *m, double limit)
+/* m->order lists the experts with m->log_h not over `limit`, in the order of age. Returns how many,
+ * which may be more than fit: those beyond `room` are only counted. */
+static int list_experts(struct imle *m, double limit, int room)
 {
     int n = 0;
 
-    for (int j = 0; j < m->M; j++)
-        if (m->log_h[j] <= limit)
-            m->order[n++] = j;
+    for (int j = 0; j < m->M; j++) {
+        if (n < room)
+            m->order[n] = j;
+        n += m->log_h[j] <= limit;
+    }
+    return n;
+}
+
+/* The experts to ask: those with m->log_h from 0 up to `limit`; where these are more than
+ * IMLE_MOST_ANSWERS, up to the largest limit (to 1/4096 of the whole) that leaves few enough. */
+static int choose_experts(struct imle *m, double limit)
+{
+    double low = 0.0;
+    double high = limit;
+    int n = list_experts(m, limit, IMLE_MOST_ANSWERS);
+
     if (n <= IMLE_MOST_ANSWERS)
         return n;
-    imle_sort_order(m, n);
-    return IMLE_MOST_ANSWERS;
+    for (int halvings = 0; halvings < 12; halvings++) {
+        double middle = 0.5 * (low + high);
+        if (list_experts(m, middle, 0) > IMLE_MOST_ANSWERS)
+            high = middle;
+        else
+            low = middle;
+    }
+    n = list_experts(m, low, IMLE_MOST_ANSWERS);
+    return n < IMLE_MOST_ANSWERS ? n : IMLE_MOST_ANSWERS;
+}
+
+void imle_gamma_slope(struct imle *m, struct imle_answer *answer)
+{
+    if (answer->sloped)
+        return;
+    imle_expert_whiten(m, answer->expert);
+    m->kernels->apply(m->p, m->d, m->dphi, m->gain, answer->dgamma);
+    for (int i = 0; i < m->d; i++)
+        answer->dgamma[i] *= 2.0 * m->config.noise_share;
+    answer->sloped = true;
 }
 
 static void add_answer(struct imle *m, int j)
@@ -61,9 +83,9 @@ static void add_answer(struct imle *m, int j)
     answer->t = elementary_exp(m->log_t[j] - m->largest_log_t);
     answer->gamma = imle_expert_gamma(m, j);
     imle_expert_output(m, j, answer->xhat);
-    m->kernels->apply(m->p, m->d, m->dphi, m->gain, answer->dgamma);
-    for (int i = 0; i < m->d; i++)
-        answer->dgamma[i] *= 2.0 * m->config.noise_share;
+    answer->sloped = false;
+    if (!m->small)
+        imle_gamma_slope(m, answer);
 }
 
 /* Answers of the first n in m->order, and the sum of their t. */
@@ -94,9 +116,7 @@ static void gather_by_distance(struct imle *m, double log_outlier)
 {
     double kappa = m->config.kappa;
 
-    for (int j = 0; j < m->M; j++)
-        m->log_h[j] = m->log_t[j] - m->gate.log_norm[j];
-    double nearest = largest_of(m->log_h, m->M);
+    double nearest = m->kernels->bounds(m->M, m->log_t, -1.0, m->gate.log_norm, m->log_h);
     for (int j = 0; j < m->M; j++)
         m->log_h[j] = kappa * (nearest - m->log_h[j]);
     ask_experts(m, choose_experts(m, negligible), log_outlier);
@@ -138,7 +158,7 @@ int imle_predict(struct imle *m, const double *z, struct learner_prediction *pre
     if (!look_at(m, z))
         return 0;
     double log_outlier = imle_log_outlier_input(m);
-    m->largest_log_t = largest_of(m->log_t, m->M);
+    m->largest_log_t = m->kernels->bounds(m->M, m->log_t, 0.0, m->log_t, m->log_h);
     int n = cluster(m, log_outlier);
     for (int k = 0; k < n; k++)
         imle_fuse(m, z, k, log_outlier, &prediction->solution[k]);
@@ -151,7 +171,7 @@ int imle_predict_single(struct imle *m, const double *z, struct learner_solution
     if (!look_at(m, z))
         return 0;
     double log_outlier = imle_log_outlier_input(m);
-    m->largest_log_t = largest_of(m->log_t, m->M);
+    m->largest_log_t = m->kernels->bounds(m->M, m->log_t, 0.0, m->log_t, m->log_h);
     gather_published(m, log_outlier);
     imle_fuse(m, z, 0, log_outlier, solution);
     return 1;

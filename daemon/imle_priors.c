@@ -1,5 +1,6 @@
 /* The priors that all experts share: what a newborn should expect. */
 #include <math.h>
+#include <string.h>
 
 #include "daemon/imle_private.h"
 
@@ -15,17 +16,37 @@ static double shared_prior(int n_experts, double own, double strength, double st
     return t >= 0.0 ? (t + root) / (own * sum) : strength * start / (root - t);
 }
 
+/* The sums over one block of experts, anew: what an incremental sum would drift by, these do not,
+ * and a loaded state has the same. */
+static void sum_block(struct imle *m, int block)
+{
+    double *sums = m->prior_sums + (size_t)(block * (m->d + m->D));
+    int end = (block + 1) * IMLE_SUM < m->M ? (block + 1) * IMLE_SUM : m->M;
+
+    memset(sums, 0, (size_t)(m->d + m->D) * sizeof *sums);
+    for (int j = block * IMLE_SUM; j < end; j++) {
+        for (int i = 0; i < m->d; i++)
+            sums[i] += m->precision[j * m->d + i];
+        for (int i = 0; i < m->D; i++)
+            sums[m->d + i] += 1.0 / m->psi[j * m->D + i];
+    }
+    m->stale[block] = false;
+}
+
 void imle_priors_update(struct imle *m)
 {
     const struct learner_config *config = &m->config;
     double precision[LEARNER_MAX_INPUTS] = {0.0};
     double per_psi[LEARNER_MAX_OUTPUTS] = {0.0};
 
-    for (int j = 0; j < m->M; j++) {
+    for (int block = 0; block * IMLE_SUM < m->M; block++) {
+        const double *sums = m->prior_sums + (size_t)(block * (m->d + m->D));
+        if (m->stale[block])
+            sum_block(m, block);
         for (int i = 0; i < m->d; i++)
-            precision[i] += m->precision[j * m->d + i];
+            precision[i] += sums[i];
         for (int i = 0; i < m->D; i++)
-            per_psi[i] += 1.0 / m->psi[j * m->D + i];
+            per_psi[i] += sums[m->d + i];
     }
     for (int i = 0; i < m->d; i++)
         m->sigma_bar[i] = shared_prior(m->M, config->prior_sigma, config->hyper_sigma,

@@ -31,7 +31,10 @@ struct imle_strengths {
 };
 
 /* Most answers that one prediction weighs against each other: it bounds the time. */
-enum { IMLE_MOST_ANSWERS = 384 };
+enum { IMLE_MOST_ANSWERS = 256 };
+
+/* Experts to a block of the sums behind the shared priors. */
+enum { IMLE_SUM = 32 };
 
 /* What densities need, one number an expert; recomputed whenever the expert changes. */
 struct imle_gate {
@@ -41,6 +44,7 @@ struct imle_gate {
     double *per_a;        /* 1 / a, as in t_j */
     double *half_log_psi; /* 1/2 sum log Psi_i */
     double *log_S;
+    double *log_peak; /* log_det - half_log_psi: log h_j where everything is met exactly */
 };
 
 /* One expert's answer to the query at hand. */
@@ -54,7 +58,8 @@ struct imle_answer {
     double share;  /* phi_j */
     double xhat[LEARNER_MAX_OUTPUTS];
     double kappa[LEARNER_MAX_INPUTS];  /* d t_j / d z = -t_j kappa */
-    double dgamma[LEARNER_MAX_INPUTS]; /* d gamma / d z */
+    double dgamma[LEARNER_MAX_INPUTS]; /* d gamma / d z, once sloped */
+    bool sloped;
 };
 
 struct imle {
@@ -74,6 +79,8 @@ struct imle {
     /* for a scan: all experts */
     double *lanes; /* blocks of 8 experts: nu, and the root R of Sigma^-1 = R' R (kernels.h) */
     struct imle_gate gate;
+    bool small;         /* few features: what follows is used */
+    double *regression; /* blocks of 8 experts: what answers need (kernels.h, regress) */
 
     /* M experts each */
     struct imle_strengths *strengths;
@@ -99,6 +106,13 @@ struct imle {
     int whitened;                /* the expert that white and gain are of, or -1 */
     double leverage;             /* of the same: |white|^2 */
     struct whitener_scratch add; /* p each */
+    bool *answered;              /* each block of 8 experts: whether the next two are known */
+    double *leverages;           /* M, up to a multiple of 8 */
+    double *misfits;             /* the same */
+    double target[LEARNER_MAX_OUTPUTS];
+    double *outputs;             /* blocks of D x 8 */
+    double *prior_sums;          /* blocks of IMLE_SUM experts: d + D sums over them */
+    bool *stale;                 /* each of these blocks: whether an expert has changed */
     double *log_t;               /* M, up to a multiple of 8 */
     double *log_h;               /* the same */
     double *q;                   /* the same */
@@ -159,21 +173,36 @@ double imle_gate_pull(const struct imle *m, int j, const double *z, double *pull
 /* Sigma^-1 of expert j, packed (imle_triangle.h). */
 void imle_gate_precision(const struct imle *m, int j, double *packed);
 
-/* imle_density.c --------------------------------------------------------------------------- */
+/* imle_answer.c ---------------------------------------------------------------------------- */
+
+/* The features m->phi are new, and x (or NULL) is what they lead to: nothing is known yet. */
+void imle_new_query(struct imle *m, const double *x);
+
+/* Numbers of one block of m->regression. */
+size_t imle_regression_block(int p, int D);
+
+/* Expert j has changed: its lane, where lanes are in use. */
+void imle_regression_write(struct imle *m, int j);
 
 /* xhat[D] of expert j at the features m->phi. */
 void imle_expert_output(struct imle *m, int j, double *xhat);
 
+/* sum (x - xhat)^2 / Psi of expert j for the x of imle_new_query(). */
+double imle_expert_misfit(struct imle *m, int j);
+
 /* d xhat / d z of expert j at the derivative m->dphi: W dphi', D x d row-major, into m->slope. */
 void imle_expert_slope(struct imle *m, int j);
 
-/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. Leaves m->white and
- * m->gain; the expert they are of already costs nothing. Whoever changes phi or the expert must set
- * m->whitened to -1. */
+/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. */
 double imle_expert_leverage(struct imle *m, int j);
+
+/* Leaves G (phi - phibar) of expert j in m->white and C^-1 (phi - phibar) in m->gain. */
+void imle_expert_whiten(struct imle *m, int j);
 
 /* gamma_j = noise_share (leverage + 1 / S_h): the regression's own uncertainty, in units of Psi. */
 double imle_expert_gamma(struct imle *m, int j);
+
+/* imle_density.c --------------------------------------------------------------------------- */
 
 /* log of the outlier densities p_out(z, x) and p_out(z). */
 double imle_log_outlier_joint(const struct imle *m);
@@ -190,6 +219,9 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 /* imle_predict.c --------------------------------------------------------------------------- */
 int imle_predict(struct imle *m, const double *z, struct learner_prediction *prediction);
 int imle_predict_single(struct imle *m, const double *z, struct learner_solution *solution);
+
+/* The answer's dgamma; the query's dphi must be in m->dphi. */
+void imle_gamma_slope(struct imle *m, struct imle_answer *answer);
 
 /* imle_split.c, imle_leader.c -------------------------------------------------------------- */
 

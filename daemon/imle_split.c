@@ -14,9 +14,24 @@
  */
 static const double level_of_mean = 0.69;
 
+/* Answers with t below exp(-this) of the largest do not move centers; they are assigned and tested
+ * like the others. A center is off by less than M exp(-this) of what they differ from it. */
+static const double light = 19.0;
+
+/* EM_pred is at rest when no center moves by more than the root of this, in its own standard
+ * deviations. */
+static const double at_rest = 1e-12;
+
+/* Pairs of an answer and a cluster that the EM steps of one prediction may look at; when they run
+ * out each further split has to do with two steps. */
+enum { MOST_PAIRS = 20000, LEAST_STEPS = 2 };
+
 struct imle_split_scratch {
     int n;      /* clusters */
     int padded; /* answers, up to a multiple of eight */
+    int heavy;  /* those that move centers come first; also up to a multiple of eight */
+    int pairs;  /* looked at in EM steps so far */
+    int index[IMLE_MOST_ANSWERS]; /* of the answer in m->answers */
     double center[LEARNER_MAX_SOLUTIONS][LEARNER_MAX_OUTPUTS];
     double x[LEARNER_MAX_OUTPUTS][IMLE_MOST_ANSWERS];
     double weight[LEARNER_MAX_OUTPUTS][IMLE_MOST_ANSWERS]; /* R_j^-1 */
@@ -36,46 +51,70 @@ size_t imle_split_memory(void)
     return sizeof(struct imle_split_scratch);
 }
 
+static int whole_lanes(int n)
+{
+    return (n + KERNEL_LANES - 1) / KERNEL_LANES * KERNEL_LANES;
+}
+
+/* The heavy answers first, both in their order. */
+static void order_by_weight(struct imle *m)
+{
+    struct imle_split_scratch *s = m->split;
+    double least = m->largest_log_t - light;
+    int n = 0;
+
+    for (int a = 0; a < m->n_answers; a++)
+        if (m->answers[a].log_t >= least)
+            s->index[n++] = a;
+    s->heavy = whole_lanes(n);
+    for (int a = 0; a < m->n_answers; a++)
+        if (m->answers[a].log_t < least)
+            s->index[n++] = a;
+    s->padded = whole_lanes(n);
+}
+
 static void lay_out_answers(struct imle *m)
 {
     struct imle_split_scratch *s = m->split;
 
-    s->padded = (m->n_answers + KERNEL_LANES - 1) / KERNEL_LANES * KERNEL_LANES;
-    for (int i = 0; i < m->D; i++)
-        for (int a = 0; a < s->padded; a++) {
-            const struct imle_answer *answer = &m->answers[a];
-            bool real = a < m->n_answers;
-            s->x[i][a] = real ? answer->xhat[i] : 0.0;
-            s->weight[i][a] =
-                real ? 1.0 / (answer->spread * m->psi[answer->expert * m->D + i]) : 0.0;
+    order_by_weight(m);
+    for (int a = 0; a < m->n_answers; a++) {
+        const struct imle_answer *answer = &m->answers[s->index[a]];
+        const double *psi = m->psi + (size_t)answer->expert * (size_t)m->D;
+        for (int i = 0; i < m->D; i++) {
+            s->x[i][a] = answer->xhat[i];
+            s->weight[i][a] = 1.0 / (answer->spread * psi[i]);
         }
+    }
+    for (int a = m->n_answers; a < s->padded; a++)
+        for (int i = 0; i < m->D; i++)
+            s->x[i][a] = s->weight[i][a] = 0.0;
 }
 
-/* (xhat_j - center)' R_j^-1 (xhat_j - center) of all answers. */
-static void deviations(const struct imle *m, const double *center, double *deviation)
+/* (xhat_j - center)' R_j^-1 (xhat_j - center) of the first n answers. */
+static void deviations(const struct imle *m, int n, const double *center, double *deviation)
 {
     struct imle_split_scratch *s = m->split;
 
-    m->kernels->deviations(s->padded, m->D, IMLE_MOST_ANSWERS, s->x[0], s->weight[0], center,
-                           deviation);
+    m->kernels->deviations(n, m->D, IMLE_MOST_ANSWERS, s->x[0], s->weight[0], center, deviation);
 }
 
-/* Deviations from every center, and the nearest of each answer. */
-static void all_deviations(struct imle *m)
+/* Deviations of the first n answers from every center, and the nearest of each answer. */
+static void all_deviations(struct imle *m, int n)
 {
     struct imle_split_scratch *s = m->split;
 
     for (int k = 0; k < s->n; k++)
-        deviations(m, s->center[k], s->p[k]);
-    memcpy(s->nearest, s->p[0], (size_t)s->padded * sizeof(double));
+        deviations(m, n, s->center[k], s->p[k]);
+    memcpy(s->nearest, s->p[0], (size_t)n * sizeof(double));
     for (int k = 1; k < s->n; k++)
-        for (int a = 0; a < s->padded; a++)
+        for (int a = 0; a < n; a++)
             s->nearest[a] = s->p[k][a] < s->nearest[a] ? s->p[k][a] : s->nearest[a];
 }
 
-/* Mean of all answers, each weighted by R_j^-1 and its probability of belonging to cluster k.
- * Returns whether the center moved. */
-static bool move_center(struct imle *m, int k)
+/* Mean of the first n answers, each weighted by R_j^-1 and its probability of belonging to cluster
+ * k. Returns whether the center moved. */
+static bool move_center(struct imle *m, int n, int k)
 {
     struct imle_split_scratch *s = m->split;
     bool moved = false;
@@ -83,10 +122,11 @@ static bool move_center(struct imle *m, int k)
     for (int i = 0; i < m->D; i++) {
         double top = 0.0;
         double bottom = 0.0;
-        m->kernels->weighted_sums(s->padded, s->p[k], s->weight[i], s->x[i], &top, &bottom);
+        m->kernels->weighted_sums(n, s->p[k], s->weight[i], s->x[i], &top, &bottom);
         if (!(bottom > 0.0))
             continue;
-        moved = moved || s->center[k][i] != top / bottom;
+        double step = top / bottom - s->center[k][i];
+        moved = moved || step * step * bottom > at_rest;
         s->center[k][i] = top / bottom;
     }
     return moved;
@@ -99,13 +139,13 @@ static bool em_iteration(struct imle *m)
     struct imle_split_scratch *s = m->split;
     bool moved = false;
 
-    all_deviations(m);
-    memset(s->sum, 0, (size_t)s->padded * sizeof(double));
+    all_deviations(m, s->heavy);
+    memset(s->sum, 0, (size_t)s->heavy * sizeof(double));
     for (int k = 0; k < s->n; k++)
-        m->kernels->memberships(s->padded, s->p[k], s->nearest, s->sum);
+        m->kernels->memberships(s->heavy, s->p[k], s->nearest, s->sum);
     for (int k = 0; k < s->n; k++) {
-        m->kernels->normalise(s->padded, s->p[k], s->sum);
-        moved = move_center(m, k) || moved;
+        m->kernels->normalise(s->heavy, s->p[k], s->sum);
+        moved = move_center(m, s->heavy, k) || moved;
     }
     return moved;
 }
@@ -120,7 +160,7 @@ static void sum_members(struct imle *m)
     memset(s->tt, 0, sizeof s->tt);
     memset(s->members, 0, sizeof s->members);
     for (int a = 0; a < m->n_answers; a++) {
-        const struct imle_answer *answer = &m->answers[a];
+        const struct imle_answer *answer = &m->answers[s->index[a]];
         s->T[answer->cluster] += s->nearest[a];
         s->t[answer->cluster] += answer->t;
         s->tt[answer->cluster] += answer->t * answer->t;
@@ -136,12 +176,12 @@ static void assign(struct imle *m)
     bool chosen[LEARNER_MAX_SOLUTIONS] = {false};
     int n = 0;
 
-    all_deviations(m);
+    all_deviations(m, s->padded);
     for (int a = 0; a < m->n_answers; a++) {
         int k = 0;
         while (s->p[k][a] > s->nearest[a])
             k++;
-        m->answers[a].cluster = k;
+        m->answers[s->index[a]].cluster = k;
         chosen[k] = true;
     }
     for (int k = 0; k < s->n; k++) {
@@ -174,11 +214,12 @@ static int farthest_member(struct imle *m, int k, const double *x)
     double *deviation = m->split->sum;
     int farthest = -1;
 
-    deviations(m, x, deviation);
+    deviations(m, m->split->padded, x, deviation);
     for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[a].cluster == k && (farthest < 0 || deviation[a] > deviation[farthest]))
+        if (m->answers[m->split->index[a]].cluster == k &&
+            (farthest < 0 || deviation[a] > deviation[farthest]))
             farthest = a;
-    return farthest;
+    return m->split->index[farthest];
 }
 
 static void split(struct imle *m, int k)
@@ -190,8 +231,12 @@ static void split(struct imle *m, int k)
 
     memcpy(s->center[k], m->answers[first].xhat, sizeof s->center[k]);
     memcpy(s->center[s->n++], m->answers[second].xhat, sizeof s->center[k]);
-    for (int i = 0; i < m->config.em_pred_iterations && moved; i++)
+    for (int i = 0; i < m->config.em_pred_iterations && moved; i++) {
+        if (i >= LEAST_STEPS && s->pairs > MOST_PAIRS)
+            break;
+        s->pairs += s->heavy * s->n;
         moved = em_iteration(m);
+    }
     assign(m);
 }
 
@@ -216,12 +261,13 @@ int imle_cluster_by_splitting(struct imle *m)
     struct imle_split_scratch *s = m->split;
 
     s->n = 1;
+    s->pairs = 0;
     lay_out_answers(m);
     for (int a = 0; a < s->padded; a++)
         s->p[0][a] = 1.0;
     memset(s->center[0], 0, sizeof s->center[0]);
-    (void)move_center(m, 0);
-    all_deviations(m);
+    (void)move_center(m, s->padded, 0);
+    all_deviations(m, s->padded);
     sum_members(m);
     while (s->n < m->config.n_solutions_max) {
         int before = s->n;

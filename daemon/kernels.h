@@ -40,6 +40,16 @@ struct kernels {
     void (*log_student)(int n, const double *q, const double *per_a, const double *exponent,
                         const double *log_norm, double *log_t);
 
+    /* Answers of 8 experts with few features. A block holds rows of 8 numbers, one lane an expert:
+     * phibar (p), the whitener's packed rows, then for each output 1 / Psi, xbar and W (p); aligned
+     * to 64 bytes. leverage[8] = |G (phi - phibar)|^2, xhat[i * 8] = xbar + W (phi - phibar),
+     * misfit[8] = sum (x - xhat)^2 / Psi. */
+    void (*regress)(int p, int n_outputs, const double *block, const double *phi, const double *x,
+                    double *leverage, double *xhat, double *misfit);
+
+    /* out = a + factor b; returns the largest. */
+    double (*bounds)(int n, const double *a, double factor, const double *b, double *out);
+
     /* For a lower triangle G packed by rows: y = G v, and back = G' y. One pass over G. */
     void (*whiten)(int n, const double *G, const double *v, double *y, double *back);
 

@@ -69,27 +69,92 @@ static void add(int n, double step, const double *restrict x, double *restrict y
         y[i] += step * x[i];
 }
 
+/* v - row for each of n rows of lanes. */
+static inline const vec *subtract_rows(int n, const double *v, const vec *row, vec (*offset)[PARTS])
+{
+    for (int i = 0; i < n; i++)
+        for (int h = 0; h < PARTS; h++)
+            offset[i][h] = v[i] - *row++;
+    return row;
+}
+
+/* y += the n rows times offset */
+static inline const vec *multiply_rows(int n, const vec *row, vec (*offset)[PARTS], vec *y)
+{
+    for (int c = 0; c < n; c++)
+        for (int h = 0; h < PARTS; h++)
+            y[h] += *row++ * offset[c][h];
+    return row;
+}
+
+/* |G offset|^2 for a lower triangle of rows of lanes. */
+static inline const vec *squared_length(int n, const vec *row, vec (*offset)[PARTS],
+                                        struct lanes *sum)
+{
+    clear(sum);
+    for (int r = 0; r < n; r++) {
+        vec y[PARTS] = {{0}};
+        row = multiply_rows(r + 1, row, offset, y);
+        for (int h = 0; h < PARTS; h++)
+            sum->part[h] += y[h] * y[h];
+    }
+    return row;
+}
+
 static void distances(int d, int n_blocks, const double *block, const double *z, double *q)
 {
     for (int b = 0; b < n_blocks; b++) {
         const vec *row = (const vec *)block;
         vec offset[LEARNER_MAX_INPUTS][PARTS];
         struct lanes sum;
-        clear(&sum);
-        for (int i = 0; i < d; i++)
-            for (int h = 0; h < PARTS; h++)
-                offset[i][h] = z[i] - *row++;
-        for (int r = 0; r < d; r++) {
-            vec y[PARTS] = {{0}};
-            for (int c = 0; c <= r; c++)
-                for (int h = 0; h < PARTS; h++)
-                    y[h] += *row++ * offset[c][h];
-            for (int h = 0; h < PARTS; h++)
-                sum.part[h] += y[h] * y[h];
-        }
+        row = subtract_rows(d, z, row, offset);
+        row = squared_length(d, row, offset, &sum);
         memcpy(q + (size_t)b * LANES, sum.part, sizeof sum.part);
         block = (const double *)row;
     }
+}
+
+static void regress(int p, int n_outputs, const double *block, const double *phi, const double *x,
+                    double *leverage, double *xhat, double *misfit)
+{
+    vec offset[LEARNER_MAX_INPUTS][PARTS];
+    struct lanes sum;
+    const vec *row = subtract_rows(p, phi, (const vec *)block, offset);
+
+    row = squared_length(p, row, offset, &sum);
+    memcpy(leverage, sum.part, sizeof sum.part);
+    clear(&sum);
+    for (int i = 0; i < n_outputs; i++) {
+        const vec *per_psi = row;
+        vec y[PARTS] = {{0}};
+        row = multiply_rows(p, row + 2 * PARTS, offset, y);
+        for (int h = 0; h < PARTS; h++) {
+            y[h] += per_psi[PARTS + h];
+            sum.part[h] += (x[i] - y[h]) * (x[i] - y[h]) * per_psi[h];
+        }
+        memcpy(xhat + (size_t)i * LANES, y, sizeof y);
+    }
+    memcpy(misfit, sum.part, sizeof sum.part);
+}
+
+static double bounds(int n, const double *restrict a, double factor, const double *restrict b,
+                     double *restrict out)
+{
+    double largest[LANES];
+    int j = 0;
+
+    for (int l = 0; l < LANES; l++)
+        largest[l] = -(double)INFINITY;
+    for (int i = 0; i < n; i++)
+        out[i] = a[i] + factor * b[i];
+    for (; j + LANES <= n; j += LANES)
+        for (int l = 0; l < LANES; l++)
+            largest[l] = out[j + l] > largest[l] ? out[j + l] : largest[l];
+    for (; j < n; j++)
+        largest[0] = out[j] > largest[0] ? out[j] : largest[0];
+    for (int l = 1; l < LANES; l++)
+        largest[0] = largest[l] > largest[0] ? largest[l] : largest[0];
+    return largest[0];
 }
 
 static void log_student(int n, const double *restrict q, const double *restrict per_a,
@@ -244,6 +309,8 @@ const struct kernels KERNELS_TABLE = {
     .add = add,
     .distances = distances,
     .log_student = log_student,
+    .regress = regress,
+    .bounds = bounds,
     .whiten = whiten,
     .rotate = rotate,
     .deviations = deviations,

@@ -11,6 +11,7 @@ add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/kernels_plain.c
   ${CMAKE_CURRENT_LIST_DIR}/imle.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_gating.c
+  ${CMAKE_CURRENT_LIST_DIR}/imle_answer.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_whitener.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_layout.c
   ${CMAKE_CURRENT_LIST_DIR}/imle_expert.c
