@@ -1,6 +1,7 @@
 #include "tools/bench/measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -225,6 +226,7 @@ std::vector<Row> measure_tick(const Case &c, int calls)
     row.ours = durations_summarise(&times);
     row.bytes = bytes_at(c, c.experts);
     row.stream_us = time_to_stream(row.bytes);
+    row.solutions = NAN;
     durations_free(&times);
     return {row};
 }

@@ -20,7 +20,7 @@ struct Row {
     int textbook_experts, lwpr_fields;
     size_t bytes;     // of our learner, were this number of experts its capacity
     double stream_us; // to read so many bytes once, median
-    double solutions; // mean number of a prediction, ours
+    double solutions; // mean number of a prediction, ours; NaN: not known
     double concerned; // mean number of experts with a responsibility above 1e-6, textbook
 };
 

@@ -29,6 +29,10 @@ def _ratio(value: float | None) -> str:
     return "" if value is None else f"{value:.1f}" if value < 10 else f"{value:.0f}"
 
 
+def _solutions(row: dict) -> str:
+    return "" if row["solutions"] is None else f"{row['solutions']:.1f}"
+
+
 def table(rows: list[dict]) -> str:
     """Markdown, a line for each call of each case."""
     lines = [
@@ -42,7 +46,7 @@ def table(rows: list[dict]) -> str:
         lines.append(
             f"| {row['name']} | {row['d']} | {row['experts']} | {_times(row, 'ours')}"
             f" | {_times(row, 'textbook')} | {_times(row, 'lwpr')} | {faster} | {streaming}"
-            f" | {row['solutions']:.1f} |"
+            f" | {_solutions(row)} |"
         )
     return "\n".join(lines) + "\n"
 

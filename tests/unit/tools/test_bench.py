@@ -65,6 +65,8 @@ class Measured(unittest.TestCase):
         self.assertEqual((tick["name"], tick["d"], tick["experts"]), ("tick", 4, 1000))
         self.assertEqual(tick["calls"], 20)
         self.assertIsNone(tick["textbook_us"])
+        self.assertIsNone(tick["solutions"])
+        self.assertTrue(bench.table([tick]).endswith("MB) |  |\n"))
         self.assertGreater(tick["ours_us"]["p50"], 5)  # it does predict
 
     def test_mistakes(self):
