@@ -212,13 +212,15 @@ static double split_level(const struct imle *m, int k)
 static int farthest_member(struct imle *m, int k, const double *x)
 {
     double *deviation = m->split->sum;
-    int farthest = -1;
+    double largest = -1.0;
+    int farthest = 0;
 
     deviations(m, m->split->padded, x, deviation);
     for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[m->split->index[a]].cluster == k &&
-            (farthest < 0 || deviation[a] > deviation[farthest]))
+        if (m->answers[m->split->index[a]].cluster == k && deviation[a] > largest) {
+            largest = deviation[a];
             farthest = a;
+        }
     return m->split->index[farthest];
 }
 

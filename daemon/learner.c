@@ -47,13 +47,36 @@ const struct learner_ops *learner_ops_of(enum learner_kind kind)
     return NULL;
 }
 
+static size_t memory(const struct learner_config *config)
+{
+    return arena_footprint(sizeof(struct learner)) + learner_ops_of(config->kind)->memory(config);
+}
+
+/* The configuration with no more experts than most_bytes has room for, but one at least. */
+static struct learner_config bounded(struct learner_config config)
+{
+    int low = 1;
+    int high = config.capacity;
+
+    while (low < high) {
+        config.capacity = high - (high - low) / 2;
+        if ((double)memory(&config) <= config.most_bytes)
+            low = config.capacity;
+        else
+            high = config.capacity - 1;
+    }
+    config.capacity = low;
+    return config;
+}
+
 size_t learner_memory(const struct learner_config *config)
 {
     char ignored[128];
 
     if (learner_config_check(config, ignored, sizeof ignored) != 0)
         return 0;
-    return arena_footprint(sizeof(struct learner)) + learner_ops_of(config->kind)->memory(config);
+    struct learner_config within = bounded(*config);
+    return memory(&within);
 }
 
 struct learner *learner_create(const struct learner_config *config, struct arena *arena, char *err,
@@ -64,8 +87,8 @@ struct learner *learner_create(const struct learner_config *config, struct arena
     struct learner *learner = arena_alloc(arena, sizeof *learner);
     if (learner) {
         learner->ops = learner_ops_of(config->kind);
-        learner->config = *config;
-        learner->self = learner->ops->create(config, arena);
+        learner->config = bounded(*config);
+        learner->self = learner->ops->create(&learner->config, arena);
     }
     if (!learner || !learner->self) {
         snprintf(err, err_size, "the learner needs %zu bytes, the arena has too few",

@@ -78,6 +78,8 @@ struct learner_config {
     enum learner_kind kind; /* LEARNER_IMLE */
     int n_inputs;           /* d, 1 .. LEARNER_MAX_INPUTS */
     int n_outputs;          /* D, 1 .. LEARNER_MAX_OUTPUTS */
+    double most_bytes;      /* the learner's memory, lowers the capacity to what fits (one at
+                               least); INFINITY. One tick can touch some 16 MB */
     int capacity;           /* most experts (or receptive fields, of all outputs together),
                                >= 1; default 256 */
 

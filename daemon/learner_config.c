@@ -13,6 +13,7 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
         .n_inputs = n_inputs,
         .n_outputs = n_outputs,
         .capacity = 256,
+        .most_bytes = INFINITY,
         .features = LEARNER_LINEAR,
         .degree = 3,
         .alpha = 0.999,
@@ -64,6 +65,7 @@ static int check_dimensions(const struct learner_config *config, char *err, size
         {"n_inputs", config->n_inputs, 1, LEARNER_MAX_INPUTS},
         {"n_outputs", config->n_outputs, 1, LEARNER_MAX_OUTPUTS},
         {"capacity", config->capacity, 1, 65536},
+        {"most_bytes", config->most_bytes, 1, INFINITY},
         {"features", (int)config->features, LEARNER_LINEAR, LEARNER_POLYNOMIAL},
         {"degree", config->degree, 1, 6},
     };

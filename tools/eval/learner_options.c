@@ -31,6 +31,7 @@ struct options {
 /* Defaults are put in by fill_table(); ranges are learner_config_check()'s. */
 static const struct option_row rows[] = {
     COUNT(capacity, "most experts"),
+    NUMBER(most_bytes, "memory that may lower the capacity"),
     CHOICE(features, "linear|polynomial", "what an expert is linear in: inputs or monomials"),
     COUNT(degree, "of the polynomial"),
     SPREAD(reference, "c, middle of the inputs' range, where polynomials are centred"),

@@ -1,7 +1,10 @@
 /* What breaks learners: still data, offsets, forgetting, extreme scales, input that is no number;
  * and that nothing is allocated after creation. */
+#include <dlfcn.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "daemon/imle_triangle.h"
 #include "daemon/imle_whitener.h"
@@ -12,6 +15,7 @@ static struct learner_prediction prediction;
 static struct learner_inverse inverse;
 
 static volatile long allocations;
+static volatile long locks;
 
 /* glibc's allocator, counted; the sanitizers bring their own, which must stay. */
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -35,6 +39,34 @@ void *realloc(void *block, size_t bytes)
     allocations++;
     return __libc_realloc(block, bytes);
 }
+#endif
+
+/* The lock, counted; the sanitizers' own must stay. */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+int pthread_mutex_lock(pthread_mutex_t *mutex)
+{
+    static int (*real)(pthread_mutex_t *);
+
+    locks++;
+    if (!real) {
+        void *found = dlsym(RTLD_NEXT, "pthread_mutex_lock");
+        memcpy(&real, &found, sizeof real);
+    }
+    return real(mutex);
+}
+
+START_TEST(the_counted_lock_counts)
+{
+    pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    long before = locks;
+    int result = pthread_mutex_lock(&mutex);
+    long counted = locks - before; /* finding the real one may take locks, too */
+
+    ck_assert_int_eq(result, 0);
+    ck_assert_int_ge(counted, 1);
+    ck_assert_int_eq(pthread_mutex_unlock(&mutex), 0);
+}
+END_TEST
 #endif
 
 static struct learner_config config_for(enum learner_features features, double alpha)
@@ -192,11 +224,12 @@ START_TEST(what_is_no_number_is_refused)
 }
 END_TEST
 
-static void expect_no_allocation(const struct learner_config *config)
+static void expect_no_allocation_or_lock(const struct learner_config *config)
 {
     struct learner *learner = bed_create(config);
     struct learner_solution single;
     long before = allocations;
+    long locks_before = locks;
 
     for (int n = 0; n < 500; n++) {
         double z[2] = {bed_uniform(-1.0, 1.0), bed_uniform(-1.0, 1.0)};
@@ -206,21 +239,24 @@ static void expect_no_allocation(const struct learner_config *config)
         learner_predict_single(learner, z, &single);
         learner_predict_inverse(learner, x, &inverse);
     }
-    ck_assert_int_eq(allocations - before, 0);
+    long allocated = allocations - before;
+    long locked = locks - locks_before; /* before Check takes locks of its own */
+    ck_assert_int_eq(allocated, 0);
+    ck_assert_int_eq(locked, 0);
     ck_assert_int_gt(learner_get_statistics(learner).experts, 3);
     bed_clean();
 }
 
-START_TEST(nothing_is_allocated_after_creation)
+START_TEST(nothing_is_allocated_or_locked_after_creation)
 {
     struct learner_config lwpr = lwpr_config(0.999);
 
     bed_seed();
     for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
         struct learner_config config = config_for((enum learner_features)features, 0.999);
-        expect_no_allocation(&config);
+        expect_no_allocation_or_lock(&config);
     }
-    expect_no_allocation(&lwpr);
+    expect_no_allocation_or_lock(&lwpr);
 }
 END_TEST
 
@@ -258,6 +294,71 @@ START_TEST(whiteners_do_not_drift)
 }
 END_TEST
 
+/* A robot that holds still for a million samples, or REACH_TEST_SAMPLES: exactly, or within a
+ * jitter, also at an offset, with forgetting. What it learned where it stands must be right
+ * afterwards. */
+START_TEST(a_million_still_samples_break_nothing)
+{
+    const char *text = getenv("REACH_TEST_SAMPLES");
+    long samples = text ? strtol(text, NULL, 10) : 1000000;
+
+    bed_seed();
+    for (int run = 0; run < 4; run++) {
+        struct learner_config config = config_for(LEARNER_LINEAR, run % 2 ? 0.9 : 0.999);
+        struct learner *learner = bed_create(&config);
+        double offset = run / 2 ? 1000.0 : 0.0;
+        double jitter = run / 2 ? 1e-6 : 0.0;
+        double z[2], x[2];
+        for (long n = 0; n < samples / 4; n++) {
+            z[0] = offset + jitter * bed_uniform(-1.0, 1.0);
+            z[1] = offset + jitter * bed_uniform(-1.0, 1.0);
+            x[0] = 3.0 + (z[0] - offset);
+            x[1] = -2.0;
+            ck_assert_int_ne(learner_update(learner, z, x), LEARNER_REFUSED);
+        }
+        expect_finite(learner, z);
+        ck_assert_int_eq(prediction.n_solutions, 1);
+        ck_assert_double_eq_tol(prediction.solution[0].value[0], x[0], 1e-5);
+        ck_assert_double_eq_tol(prediction.solution[0].value[1], x[1], 1e-5);
+        bed_clean();
+    }
+}
+END_TEST
+
+/* Inputs and outputs in units from 1e-2 to 1e4: the same answers, in those units. Below that the
+ * scatter of 1e-6 that an expert is published to be born with outweighs the samples: only finite.
+ */
+START_TEST(units_do_not_matter)
+{
+    const double units[] = {1e-5, 1e-2, 1.0, 1e2, 1e4};
+
+    bed_seed();
+    for (int u = 0; u < 5; u++) {
+        struct learner_config config = config_for(LEARNER_LINEAR, 0.999);
+        double unit = units[u];
+        double error = 0.0;
+        config.ridge *= unit * unit;
+        for (int i = 0; i < 2; i++) {
+            config.psi0[i] *= unit * unit;
+            config.sigma0[i] *= unit * unit;
+        }
+        struct learner *learner = bed_create(&config);
+        for (int n = 0; n < 4000; n++) {
+            double z[2] = {unit * bed_uniform(-1.0, 1.0), unit * bed_uniform(-1.0, 1.0)};
+            double x[2] = {z[0] - 2.0 * z[1], z[1] + z[0]};
+            learner_update(learner, z, x);
+            if (n < 3500)
+                continue;
+            expect_finite(learner, z);
+            double off = (prediction.solution[0].value[0] - x[0]) / unit;
+            error += off * off / 500.0;
+        }
+        ck_assert_msg(unit < 1e-2 || sqrt(error) < 0.1, "unit %g: RMSE %g", unit, sqrt(error));
+        bed_clean();
+    }
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -266,8 +367,13 @@ int main(void)
         receptive_fields_stay_finite_on_collinear_and_huge_inputs,
         collinear_and_huge_inputs_stay_finite,
         what_is_no_number_is_refused,
-        nothing_is_allocated_after_creation,
+        nothing_is_allocated_or_locked_after_creation,
         whiteners_do_not_drift,
+        a_million_still_samples_break_nothing,
+        units_do_not_matter,
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        the_counted_lock_counts,
+#endif
     };
 
     return SUITE_RUN("learner numerics", tests);

@@ -88,6 +88,39 @@ START_TEST(a_full_learner_refuses_births_and_keeps_what_it_knows)
 }
 END_TEST
 
+/* Bytes bound the experts as their number does; at the bound nothing grows and nothing is lost. */
+START_TEST(memory_bounds_the_experts)
+{
+    struct learner_config config = small(1024);
+    const double z[2] = {0.1, 0.1};
+
+    bed_seed();
+    config.features = LEARNER_POLYNOMIAL;
+    config.degree = 4;
+    config.clustering = LEARNER_CLUSTER_LEADER;
+    size_t whole = learner_memory(&config);
+    config.most_bytes = (double)whole / 10.0;
+    ck_assert_uint_le(learner_memory(&config), whole / 10);
+    struct learner *learner = bed_create(&config);
+    int capacity = learner_get_statistics(learner).capacity;
+    ck_assert_int_gt(capacity, 8);
+    ck_assert_int_lt(capacity, 103);
+    for (int tool = 0; tool < 2 * capacity; tool++)
+        teach(learner, 30, 5.0 * tool);
+    ck_assert_int_eq(learner_get_statistics(learner).experts, capacity);
+    ck_assert_uint_gt(learner_get_statistics(learner).full, 100);
+    size_t size = learner_save_size(learner);
+    learner_predict(learner, z, &a);
+    teach(learner, 300, -50.0);
+    ck_assert_uint_eq(learner_save_size(learner), size);
+    learner_predict(learner, z, &b);
+    ck_assert_int_eq(memcmp(&a, &b, sizeof a), 0);
+    config.most_bytes = 1.0;
+    ck_assert_int_eq(learner_get_statistics(bed_create(&config)).capacity, 1);
+    bed_clean();
+}
+END_TEST
+
 static unsigned char *saved(const struct learner *learner, size_t *size)
 {
     *size = learner_save_size(learner);
@@ -231,6 +264,7 @@ int main(void)
         every_row_is_checked,
         a_small_arena_is_told,
         a_full_learner_refuses_births_and_keeps_what_it_knows,
+        memory_bounds_the_experts,
         a_loaded_state_goes_on_to_the_same_bytes,
         a_damaged_state_is_refused_whole,
         a_state_of_another_learner_is_refused,
