@@ -199,7 +199,6 @@ def _psi_bars(n: int) -> list[Bar]:
 
 def studies(quick: bool) -> list[Study]:
     n = 20000 if quick else 100000
-    wide = 40000 if quick else 200000
     crossing = _one_input(lambda z, up: np.where(up, z, -z), -2, 2, lambda z: np.abs(z) >= 0.15)
     sines = _one_input(lambda z, up: np.sin(z) + up, -np.pi, np.pi, lambda z: z == z)
     counted = [Bar("queries without exactly two solutions", 4000, _not_two, 2, ""),
@@ -215,8 +214,8 @@ def studies(quick: bool) -> list[Study]:
               _six_tools,
               [Bar("hand", 45000, rmse("S1"), 2.5), Bar("worst tool", 45000, worst_tool, 10),
                Bar("solutions", 45000, solutions(), 0.05, "", 6)]),
-        Study("wide", "joint ranges twice as wide", (7, 3), _wide(wide),
-              [Bar(f"hand after {wide:,}", wide, rmse("S1"), 15)]),
+        Study("wide", "joint ranges twice as wide", (7, 3), _wide(200000),
+              [Bar("hand after 200,000", 200000, rmse("S1"), 15)]),
         Study("half_psi", "Psi_0 half as wide (standard deviation)", (7, 3), _four_phases(20000),
               _psi_bars(20000), ("psi0=0.25e-4",)),
         Study("double_psi", "Psi_0 twice as wide", (7, 3), _four_phases(20000), _psi_bars(20000),
