@@ -4,6 +4,7 @@
 #include <string>
 
 #include "daemon/arena.h"
+#include "tests/oracle/parameters_of.h"
 #include "tests/oracle/recursive_imle.h"
 
 namespace
@@ -52,32 +53,18 @@ private:
     learner_prediction prediction_{};
 };
 
-oracle::Parameters parameters_of(const learner_config &c)
+/* As published: no expert is passed over, however small its share. */
+oracle::Parameters published(const learner_config &config)
 {
-    oracle::Parameters p;
-    p.d = c.n_inputs;
-    p.D = c.n_outputs;
-    p.psi0 = Eigen::Map<const Eigen::VectorXd>(c.psi0, c.n_outputs);
-    p.sigma0 = Eigen::Map<const Eigen::VectorXd>(c.sigma0, c.n_inputs);
-    p.alpha = c.alpha;
-    p.w_sigma = c.hyper_sigma;
-    p.w_psi = c.hyper_psi;
-    p.w_Sigma = c.prior_sigma;
-    p.w_nu = c.prior_nu;
-    p.w_Psi = c.prior_psi;
-    p.w_Lambda = c.ridge;
-    p.n_outliers = c.n_outliers;
-    p.p0 = c.p0;
-    p.significance = c.significance;
-    p.n_solutions_max = c.n_solutions_max;
-    p.em_pred_iterations = c.em_pred_iterations;
+    oracle::Parameters p = oracle::parameters_of(config);
+    p.skip = 0;
     return p;
 }
 
 class TextbookRival : public Rival
 {
 public:
-    explicit TextbookRival(const learner_config &config) : imle_(parameters_of(config)) {}
+    explicit TextbookRival(const learner_config &config) : imle_(published(config)) {}
     void update(const double *z, const double *x) override
     {
         imle_.update(z, x);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_ARENAS = 64 };
 
@@ -54,6 +55,30 @@ struct learner *bed_create(const struct learner_config *config)
     ck_assert_msg(learner != NULL, "%s", err);
     ck_assert_uint_eq(arena_used(arena), bytes);
     return learner;
+}
+
+unsigned char *bed_saved(const struct learner *learner, size_t *size)
+{
+    *size = learner_save_size(learner);
+    unsigned char *buffer = malloc(*size);
+
+    ck_assert_ptr_nonnull(buffer);
+    ck_assert_uint_eq(learner_save(learner, buffer, *size - 1), 0);
+    ck_assert_uint_eq(learner_save(learner, buffer, *size), *size);
+    return buffer;
+}
+
+void bed_expect_same_state(const struct learner *one, const struct learner *other)
+{
+    size_t n = 0;
+    size_t m = 0;
+    unsigned char *first = bed_saved(one, &n);
+    unsigned char *second = bed_saved(other, &m);
+
+    ck_assert_uint_eq(n, m);
+    ck_assert_int_eq(memcmp(first, second, n), 0);
+    free(first);
+    free(second);
 }
 
 void bed_clean(void)

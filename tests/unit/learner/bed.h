@@ -20,6 +20,12 @@ double bed_normal(void);
 /* A learner with room for all that its configuration allows. The test fails when it is refused. */
 struct learner *bed_create(const struct learner_config *config);
 
+/* The learner's state in *size bytes that the caller frees. */
+unsigned char *bed_saved(const struct learner *learner, size_t *size);
+
+/* The test fails unless both states are the same bytes. */
+void bed_expect_same_state(const struct learner *one, const struct learner *other);
+
 /* Frees what bed_create() made since the last time. */
 void bed_clean(void);
 

@@ -33,29 +33,6 @@ static struct learner_config config_for(enum learner_features features,
     return config;
 }
 
-static unsigned char *saved(const struct learner *learner, size_t *size)
-{
-    *size = learner_save_size(learner);
-    unsigned char *bytes = malloc(*size);
-
-    ck_assert_ptr_nonnull(bytes);
-    ck_assert_uint_eq(learner_save(learner, bytes, *size), *size);
-    return bytes;
-}
-
-static void expect_same_state(const struct learner *one, const struct learner *other)
-{
-    size_t n = 0;
-    size_t m = 0;
-    unsigned char *first = saved(one, &n);
-    unsigned char *second = saved(other, &m);
-
-    ck_assert_uint_eq(n, m);
-    ck_assert_int_eq(memcmp(first, second, n), 0);
-    free(first);
-    free(second);
-}
-
 /* One learner for each width there is, the plain one first. Returns how many. */
 static int create_all(struct learner_config config, struct learner **learners)
 {
@@ -104,7 +81,7 @@ START_TEST(all_widths_learn_and_predict_the_same_bytes)
             int n = create_all(config, learners);
             teach_and_ask(learners, n, 600);
             for (int w = 1; w < n; w++)
-                expect_same_state(learners[0], learners[w]);
+                bed_expect_same_state(learners[0], learners[w]);
             printf("%d widths, %d experts\n", n, learner_get_statistics(learners[0]).experts);
             bed_clean();
         }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/oracle/parameters_of.h"
 #include "tests/oracle/textbook_imle.h"
 /* After the C++ headers: Check takes the word `fail`. */
 #include "tests/unit/learner/bed.h"
@@ -27,30 +28,6 @@ const Case cases[] = {
     {2, 3, 0.95, 0.5, false, 2}, {4, 3, 0.999, 0, true, 1}, {7, 3, 0.999, 0, false, 1},
     {1, 2, 0.9, 1.0, false, 1},
 };
-
-oracle::Parameters parameters_of(const learner_config &c)
-{
-    oracle::Parameters p;
-    p.d = c.n_inputs;
-    p.D = c.n_outputs;
-    p.psi0 = Eigen::Map<const Eigen::VectorXd>(c.psi0, c.n_outputs);
-    p.sigma0 = Eigen::Map<const Eigen::VectorXd>(c.sigma0, c.n_inputs);
-    p.alpha = c.alpha;
-    p.w_sigma = c.hyper_sigma;
-    p.w_psi = c.hyper_psi;
-    p.w_Sigma = c.prior_sigma;
-    p.w_nu = c.prior_nu;
-    p.w_Psi = c.prior_psi;
-    p.w_Lambda = c.ridge;
-    p.floor = c.prior_floor;
-    p.skip = c.skip;
-    p.n_outliers = c.n_outliers;
-    p.p0 = c.p0;
-    p.significance = c.significance;
-    p.n_solutions_max = c.n_solutions_max;
-    p.em_pred_iterations = c.em_pred_iterations;
-    return p;
-}
 
 learner_config config_of(const Case &k)
 {
@@ -118,7 +95,7 @@ void run_case(const Case &k)
 {
     learner_config config = config_of(k);
     learner *ours = bed_create(&config);
-    oracle::TextbookImle theirs(parameters_of(config));
+    oracle::TextbookImle theirs(oracle::parameters_of(config));
     Eigen::VectorXd z(k.d), x(k.D);
     for (int n = 0; n < 600; n++) {
         sample(k.d, k.D, z, x);

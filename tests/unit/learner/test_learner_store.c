@@ -121,30 +121,6 @@ START_TEST(memory_bounds_the_experts)
 }
 END_TEST
 
-static unsigned char *saved(const struct learner *learner, size_t *size)
-{
-    *size = learner_save_size(learner);
-    unsigned char *buffer = malloc(*size);
-
-    ck_assert_ptr_nonnull(buffer);
-    ck_assert_uint_eq(learner_save(learner, buffer, *size - 1), 0);
-    ck_assert_uint_eq(learner_save(learner, buffer, *size), *size);
-    return buffer;
-}
-
-static void expect_same_bytes(const struct learner *one, const struct learner *other)
-{
-    size_t n = 0;
-    size_t m = 0;
-    unsigned char *first = saved(one, &n);
-    unsigned char *second = saved(other, &m);
-
-    ck_assert_uint_eq(n, m);
-    ck_assert_int_eq(memcmp(first, second, n), 0);
-    free(first);
-    free(second);
-}
-
 static void teach_both(struct learner *one, struct learner *other, int samples)
 {
     for (int n = 0; n < samples; n++) {
@@ -168,14 +144,14 @@ START_TEST(a_loaded_state_goes_on_to_the_same_bytes)
         config.capacity = 64;
         struct learner *one = bed_create(&config);
         teach(one, 700, 0.0);
-        unsigned char *buffer = saved(one, &size);
+        unsigned char *buffer = bed_saved(one, &size);
         config.capacity = 80;
         struct learner *other = bed_create(&config);
         teach(other, 50, 3.0);
         ck_assert_int_eq(learner_load(other, buffer, size, err, sizeof err), 0);
-        expect_same_bytes(one, other);
+        bed_expect_same_state(one, other);
         teach_both(one, other, 300);
-        expect_same_bytes(one, other);
+        bed_expect_same_state(one, other);
         free(buffer);
         bed_clean();
     }
@@ -191,7 +167,7 @@ START_TEST(a_damaged_state_is_refused_whole)
     struct learner *learner = bed_create(&config);
     struct learner *untouched = bed_create(&config);
     teach(learner, 100, 0.0);
-    unsigned char *buffer = saved(learner, &size);
+    unsigned char *buffer = bed_saved(learner, &size);
     ck_assert_int_eq(learner_load(untouched, buffer, size, err, sizeof err), 0);
     for (size_t cut = 0; cut < size; cut += 7)
         ck_assert_int_eq(learner_load(learner, buffer, cut, err, sizeof err), -1);
@@ -200,7 +176,7 @@ START_TEST(a_damaged_state_is_refused_whole)
         ck_assert_int_eq(learner_load(learner, buffer, size, err, sizeof err), -1);
         buffer[n] ^= (unsigned char)(1U << (n % 8));
     }
-    expect_same_bytes(learner, untouched);
+    bed_expect_same_state(learner, untouched);
     free(buffer);
     bed_clean();
 }
@@ -225,7 +201,7 @@ START_TEST(a_state_of_another_learner_is_refused)
     bed_seed();
     struct learner *learner = bed_create(&config);
     teach(learner, 400, 0.0);
-    unsigned char *buffer = saved(learner, &size);
+    unsigned char *buffer = bed_saved(learner, &size);
     other.alpha = 0.99;
     expect_refusal(buffer, size, &other, "parameters");
     other = config;

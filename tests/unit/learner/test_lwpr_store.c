@@ -81,27 +81,6 @@ START_TEST(a_full_learner_keeps_what_it_knows)
 }
 END_TEST
 
-static unsigned char *saved(const struct learner *learner, size_t *size)
-{
-    *size = learner_save_size(learner);
-    unsigned char *buffer = malloc(*size);
-
-    ck_assert_ptr_nonnull(buffer);
-    ck_assert_uint_eq(learner_save(learner, buffer, *size), *size);
-    return buffer;
-}
-
-static void expect_same_bytes(const struct learner *one, const struct learner *other)
-{
-    size_t n = 0, m = 0;
-    unsigned char *first = saved(one, &n), *second = saved(other, &m);
-
-    ck_assert_uint_eq(n, m);
-    ck_assert_int_eq(memcmp(first, second, n), 0);
-    free(first);
-    free(second);
-}
-
 START_TEST(a_loaded_state_goes_on_to_the_same_bytes)
 {
     size_t size = 0;
@@ -112,12 +91,12 @@ START_TEST(a_loaded_state_goes_on_to_the_same_bytes)
         config.lwpr.diagonal_only = !full;
         struct learner *one = bed_create(&config);
         teach(one, 3000, 1.0);
-        unsigned char *buffer = saved(one, &size);
+        unsigned char *buffer = bed_saved(one, &size);
         config.capacity = 300;
         struct learner *other = bed_create(&config);
         teach(other, 500, 2.0);
         ck_assert_int_eq(learner_load(other, buffer, size, err, sizeof err), 0);
-        expect_same_bytes(one, other);
+        bed_expect_same_state(one, other);
         for (int n = 0; n < 3000; n++) {
             double z[2] = {bed_uniform(-1.5, 1.5), bed_uniform(-1.5, 1.5)};
             double x[2] = {sin(3.0 * z[0]) + z[1], z[0] * z[1]};
@@ -126,7 +105,7 @@ START_TEST(a_loaded_state_goes_on_to_the_same_bytes)
             learner_predict(other, z, &b);
             ck_assert_int_eq(memcmp(&a.solution[0], &b.solution[0], sizeof a.solution[0]), 0);
         }
-        expect_same_bytes(one, other);
+        bed_expect_same_state(one, other);
         free(buffer);
         bed_clean();
     }
@@ -144,7 +123,7 @@ START_TEST(what_cannot_be_a_state_is_refused_whole)
     struct learner *one = bed_create(&config), *other = bed_create(&config);
     teach(one, 500, 1.0);
     teach(other, 100, 0.5);
-    unsigned char *before = saved(other, &now), *buffer = saved(one, &size);
+    unsigned char *before = bed_saved(other, &now), *buffer = bed_saved(one, &size);
     for (int n = 0; n < 200; n++) {
         at = (size_t)bed_uniform(0.0, (double)size);
         buffer[at] ^= 0x10;
@@ -156,7 +135,7 @@ START_TEST(what_cannot_be_a_state_is_refused_whole)
     struct learner *unlike = bed_create(&config);
     ck_assert_int_eq(learner_load(unlike, buffer, size, err, sizeof err), -1);
     ck_assert_ptr_nonnull(strstr(err, "parameters"));
-    unsigned char *after = saved(other, &size);
+    unsigned char *after = bed_saved(other, &size);
     ck_assert_uint_eq(size, now);
     ck_assert_int_eq(memcmp(before, after, size), 0);
     free(before);
