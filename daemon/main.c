@@ -1,7 +1,8 @@
-/* reachd: options, the order of start and end, and housekeeping. */
+/* reachd: options, and the order of start and end. */
 #include "arena.h"
 #include "config.h"
 #include "daemon_bus.h"
+#include "house.h"
 #include "loop.h"
 #include "tick.h"
 
@@ -9,22 +10,17 @@
 #include "common/log.h"
 #include "version.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <reach_hello_t.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #define MAX_CONFIGS 8
 #define MAX_OVERRIDES 64
 
-static const int claim_ms = 300;                /* time for another daemon to answer */
-static const int house_period_ms = 20;          /* of housekeeping */
-static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
+static const int claim_ms = 300; /* time for another daemon to answer */
 
 struct arguments {
     const char *configs[MAX_CONFIGS];
@@ -209,47 +205,11 @@ static void tear_down(struct reachd *reachd)
     arena_destroy(reachd->arena);
 }
 
-static void say_what_is_awaited(const struct reachd *reachd)
-{
-    static int64_t waiting_since, said;
-    enum loop_wait waits = loop_waits(reachd->loop);
-    int64_t now = bus_monotonic_us();
-
-    if (waits != LOOP_WAITS_FOR_MARKER) {
-        waiting_since = 0;
-        return;
-    }
-    if (!waiting_since)
-        waiting_since = now;
-    if (now - waiting_since > patience_us && now - said > patience_us) {
-        log_warning("waiting for the marker that is due: is vision running?");
-        said = now;
-    }
-}
-
-/* Until a signal asks to end: what may block or write happens here. */
-static void keep_house(struct reachd *reachd, const sigset_t *signals)
-{
-    const struct timespec period = {.tv_nsec = (long)house_period_ms * 1000000};
-
-    for (;;) {
-        int signal = sigtimedwait(signals, NULL, &period);
-        if (signal == SIGINT || signal == SIGTERM)
-            return;
-        model_store_serve(tick_model_store(reachd->tick));
-        say_what_is_awaited(reachd);
-    }
-}
-
 static int run(struct reachd *reachd, char *error, size_t error_size)
 {
-    sigset_t signals;
+    struct house house = {0};
 
-    /* Blocked before any thread starts, so that only housekeeping receives them. */
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &signals, NULL);
+    house_take_signals();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size))
         return -1;
     if (daemon_bus_start(reachd->bus, error, error_size))
@@ -259,7 +219,9 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
         return -1;
     }
     log_info("ready");
-    keep_house(reachd, &signals);
+    house.loop = reachd->loop;
+    house.store = tick_model_store(reachd->tick);
+    house_keep(&house);
     loop_stop(reachd->loop);
     daemon_bus_stop(reachd->bus);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));

@@ -1,0 +1,57 @@
+#include "house.h"
+
+#include "common/bus.h"
+#include "common/log.h"
+
+#include <signal.h>
+#include <time.h>
+
+static const int period_ms = 20;
+static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
+
+static sigset_t house_signals(void)
+{
+    sigset_t signals;
+
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    return signals;
+}
+
+void house_take_signals(void)
+{
+    sigset_t signals = house_signals();
+
+    pthread_sigmask(SIG_BLOCK, &signals, NULL);
+}
+
+static void say_what_is_awaited(struct house *house)
+{
+    int64_t now = bus_monotonic_us();
+
+    if (loop_waits(house->loop) != LOOP_WAITS_FOR_MARKER) {
+        house->waiting_since = 0;
+        return;
+    }
+    if (!house->waiting_since)
+        house->waiting_since = now;
+    if (now - house->waiting_since > patience_us && now - house->said > patience_us) {
+        log_warning("waiting for the marker that is due: is vision running?");
+        house->said = now;
+    }
+}
+
+void house_keep(struct house *house)
+{
+    const struct timespec period = {.tv_nsec = (long)period_ms * 1000000};
+    sigset_t signals = house_signals();
+
+    for (;;) {
+        int signal = sigtimedwait(&signals, NULL, &period);
+        if (signal == SIGINT || signal == SIGTERM)
+            return;
+        model_store_serve(house->store);
+        say_what_is_awaited(house);
+    }
+}

@@ -1,0 +1,23 @@
+/* Housekeeping: what may block or write, in the main thread, while the loop runs in its own. */
+#ifndef REACH_HOUSE_H
+#define REACH_HOUSE_H
+
+#include "loop.h"
+#include "model_store.h"
+
+#include <stdint.h>
+
+struct house {
+    struct loop *loop;
+    struct model_store *store;
+    int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
+    int64_t said;          /* when the log was last told of it, monotonic us */
+};
+
+/* Blocks the signals that house_keep receives. To be called before any thread starts. */
+void house_take_signals(void);
+
+/* Keeps house until SIGINT or SIGTERM asks to end. */
+void house_keep(struct house *house);
+
+#endif
