@@ -9,6 +9,8 @@
 
 static const double radians_per_degree = 3.14159265358979323846 / 180.0;
 
+const char option_preset[] = "preset";
+
 const struct option_row *option_find(const struct option_row *table, const char *name)
 {
     for (; table->name; table++)
@@ -17,8 +19,8 @@ const struct option_row *option_find(const struct option_row *table, const char 
     return NULL;
 }
 
-/* The factor from what people write to what is stored: the one place where degrees end. */
-static double unit_factor(const struct option_row *row)
+/* The one place where degrees end. */
+double option_unit_factor(const struct option_row *row)
 {
     return row->unit && strncmp(row->unit, "deg", 3) == 0 ? radians_per_degree : 1.0;
 }
@@ -114,7 +116,7 @@ static int set_list(const struct option_row *row, struct option_list *field,
     for (int i = 0; i < n_items; i++) {
         if (parse_number(row, items[i], &field->value[i], error, error_size))
             return -1;
-        field->value[i] *= unit_factor(row);
+        field->value[i] *= option_unit_factor(row);
     }
     field->n = n_items;
     return 0;
@@ -138,7 +140,7 @@ int option_set(const struct option_row *row, void *target, const char *const *it
     case OPTION_NUMBER:
         if (parse_number(row, items[0], (double *)(void *)field, error, error_size))
             return -1;
-        *(double *)(void *)field *= unit_factor(row);
+        *(double *)(void *)field *= option_unit_factor(row);
         return 0;
     case OPTION_LIST:
     case OPTION_SPREAD:
@@ -207,8 +209,10 @@ static int apply_text(struct loading *loading, const char *origin, const char *n
 static int apply_defaults(struct loading *loading, char *error, size_t error_size)
 {
     for (const struct option_row *row = loading->table; row->name; row++)
-        if (row->initial &&
-            apply_text(loading, "default", row->name, row->initial, error, error_size))
+        if (row->initial == option_preset)
+            loading->given[row - loading->table] = true;
+        else if (row->initial &&
+                 apply_text(loading, "default", row->name, row->initial, error, error_size))
             return -1;
     return 0;
 }
@@ -284,20 +288,4 @@ int options_load_as(const struct option_row *table, void *target, const char *co
             return -1;
         }
     return 0;
-}
-
-void options_print(const struct option_row *table, FILE *out)
-{
-    for (; table->name; table++) {
-        fprintf(out, "%-36s %s\n", table->name, table->help);
-        fprintf(out, "%-36s ", "");
-        fprintf(out, table->initial ? "default %s" : "must be given", table->initial);
-        if (table->unit)
-            fprintf(out, ", unit %s", table->unit);
-        if (table->choices)
-            fprintf(out, ", one of %s", table->choices);
-        if (table->minimum != 0 || table->maximum != 0)
-            fprintf(out, ", range %g .. %g", table->minimum, table->maximum);
-        fputc('\n', out);
-    }
 }

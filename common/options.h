@@ -38,8 +38,9 @@ struct option_list {
 
 /* One option. A unit of "deg" or "deg/s" or "deg/s2" is written in degrees by people and stored in
  * radians; every other unit is stored as written. `initial` is the default, in the text that YAML
- * would hold ("2.0", "[1, 2, 3]"); NULL means that the option must be given. `minimum` and
- * `maximum` are in the unit that people write; both 0 means no range. */
+ * would hold ("2.0", "[1, 2, 3]"); NULL means that the option must be given, `option_preset` that
+ * the struct holds the default before it is loaded. `minimum` and `maximum` are in the unit that
+ * people write; both 0 means no range. */
 struct option_row {
     const char *name;
     enum option_type type;
@@ -51,6 +52,9 @@ struct option_row {
     const char *help;
     const char *choices; /* OPTION_CHOICE: the words, separated by '|' */
 };
+
+/* The `initial` of a row whose default the program puts into the struct itself. */
+extern const char option_preset[];
 
 /* Ends a table. */
 #define OPTION_END                                                                                 \
@@ -72,8 +76,16 @@ int options_load_as(const struct option_row *table, void *target, const char *co
                     int n_paths, const char *override_option, const char *const *overrides,
                     int n_overrides, char *error, size_t error_size);
 
-/* Prints the table as a reference: name, unit, default, range, help. */
-void options_print(const struct option_row *table, FILE *out);
+/* Prints the table as a reference: name, unit, default, range, help. Defaults of `option_preset`
+ * rows are read from `preset`, which may be NULL for a table without them. */
+void options_print(const struct option_row *table, const void *preset, FILE *out);
+
+/* The value in `target` as YAML would hold it; a list of none is the empty text. */
+enum { OPTION_TEXT_SIZE = 512 };
+void option_text(const struct option_row *row, const void *target, char text[OPTION_TEXT_SIZE]);
+
+/* What the row's unit multiplies with on its way from people to the struct: radians in a degree. */
+double option_unit_factor(const struct option_row *row);
 
 /* For options_yaml.c and tests: sets one option from text. `items` texts of a list (or 1 scalar).
  *   returns 0, or -1 with what is wrong (without file and key) in `error`. */

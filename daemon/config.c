@@ -1,7 +1,14 @@
 #include "config.h"
 
+#include "daemon/learner_rows.h"
+#include "visual.h"
+
 #include <math.h>
 #include <string.h>
+
+/* What one tick can touch: experts, and with them the learner's memory. */
+enum { MOST_EXPERTS = 1024 };
+static const double most_bytes = 16e6;
 
 #define ROW(name, type, field, unit, initial, minimum, maximum, help)                              \
     {                                                                                              \
@@ -17,6 +24,12 @@
 #define CHOICE(name, field, initial, words, help)                                                  \
     {                                                                                              \
         name, OPTION_CHOICE, offsetof(struct config, field), NULL, initial, 0, 0, help, words      \
+    }
+
+#define LEARNER_ROW(name, type, field, minimum, maximum, choices, help)                            \
+    {                                                                                              \
+        "learner." name, type, offsetof(struct config, learner.field), NULL, option_preset,        \
+            minimum, maximum, help, choices                                                        \
     }
 
 static const struct option_row table[] = {
@@ -96,10 +109,7 @@ static const struct option_row table[] = {
            "the task row of disparity is divided by this, likewise"),
 
     CHOICE("learner.kind", learner_kind, "imle", "imle|null|lwpr", "learning algorithm"),
-    CHOICE("learner.experts", learner_features, "polynomial", "linear|polynomial",
-           "what an expert is linear in: the joints (as published) or their monomials"),
-    COUNT("learner.degree", learner_degree, "3", 1, 6, "of the polynomial"),
-    COUNT("learner.capacity", learner_capacity, "64", 1, 1024, "most experts"),
+    LEARNER_ROWS(LEARNER_ROW),
     NUMBER("learner.noise_angle", learner_noise_angle, "deg", "1", 1e-6, 90,
            "standard deviation of the angles about an expert: square root of Psi_0"),
     NUMBER("learner.noise_disparity", learner_noise_disparity, "px", "3", 1e-6, 1000,
@@ -109,60 +119,9 @@ static const struct option_row table[] = {
     LIST("learner.reference", learner_reference, "deg", NULL, -360, 360,
          "middle of the joints' range, where polynomials are centred"),
     NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100, "unit of the polynomials"),
-    NUMBER("learner.alpha", learner_alpha, NULL, "0.999", 0.9, 1, "forgetting exponent, 1 = none"),
-    NUMBER("learner.ridge", learner_ridge, NULL, "0.001", 1e-12, 1e6, "w_Lambda"),
-    NUMBER("learner.hyper_sigma", learner_hyper_sigma, NULL, "8", 0, HUGE_VAL, "w_sigma"),
-    NUMBER("learner.hyper_psi", learner_hyper_psi, NULL, ".inf", 0, HUGE_VAL, "w_psi"),
-    NUMBER("learner.prior_sigma", learner_prior_sigma, NULL, "16", 1, HUGE_VAL, "w_Sigma"),
-    NUMBER("learner.prior_psi", learner_prior_psi, NULL, ".inf", 0, HUGE_VAL, "w_Psi"),
-    NUMBER("learner.prior_nu", learner_prior_nu, NULL, "0", 0, 1e6, "w_nu"),
-    NUMBER("learner.p0", learner_p0, NULL, "0.1", 0, 1, "outlier probability"),
-    COUNT("learner.outliers", learner_outliers, "1", 0, 1000,
-          "outliers in a row that are dropped before an expert is born"),
-    CHOICE("learner.clustering", learner_clustering, "leader", "published|split|leader",
-           "how experts are gathered into solutions"),
-    NUMBER("learner.significance", learner_significance, NULL, "0.99", 0, 1,
-           "level of the rules that split"),
-    NUMBER("learner.leader_level", learner_leader_level, NULL, "0.9", 0, 1,
-           "level of the leader rule"),
-    NUMBER("learner.kappa", learner_kappa, NULL, "0.5", 0, 4, "exponent of distance, split|leader"),
-    NUMBER("learner.noise_share", learner_noise_share, NULL, "1", 1e-12, 1e6,
-           "variance of the samples' noise, in units of Psi; 1 = as published"),
-    NUMBER("learner.gamma_floor", learner_gamma_floor, NULL, "0.05", 0, 100,
-           "least uncertainty of an expert in an average, 0 = as published"),
-    COUNT("learner.solutions", learner_solutions, "16", 1, 16, "most solutions"),
-    COUNT("learner.em_iterations", learner_em_iterations, "2", 0, 100, "EM_pred iterations"),
-    FLAG("learner.inherit", learner_inherit, "true",
-         "a new expert starts from its parent's slopes"),
-    FLAG("learner.average_jacobian", learner_average_jacobian, "false",
-         "mean of slopes instead of the exact derivative"),
-    NUMBER("learner.lwpr_init_d", lwpr.init_d, NULL, "10", 1e-6, 1e6,
-           "LWPR: metric of a new receptive field, per square of learner.scale"),
-    FLAG("learner.lwpr_diagonal_only", lwpr.diagonal_only, "true", "LWPR: metrics stay diagonal"),
-    NUMBER("learner.lwpr_init_alpha", lwpr.init_alpha, NULL, "50", 0, 1e9,
-           "LWPR: learning rate of the metric, 0 = metrics stay as they are born"),
-    NUMBER("learner.lwpr_penalty", lwpr.penalty, NULL, "1e-6", 0, 1e9, "LWPR: on large metrics"),
-    NUMBER("learner.lwpr_w_gen", lwpr.w_gen, NULL, "0.1", 1e-9, 0.99,
-           "LWPR: activation under which a sample gets a field of its own"),
-    NUMBER("learner.lwpr_w_prune", lwpr.w_prune, NULL, "0.9", 1e-9, 1,
-           "LWPR: activation of two fields by one sample at which one goes"),
-    NUMBER("learner.lwpr_cutoff", lwpr.cutoff, NULL, "0.001", 1e-12, 0.99,
-           "LWPR: activation under which a field takes no part"),
-    NUMBER("learner.lwpr_add_threshold", lwpr.add_threshold, NULL, "0.5", 0, 1,
-           "LWPR: share of the error under which a projection is followed by another"),
-    COUNT("learner.lwpr_projections", lwpr.max_projections, "16", 1, 16,
-          "LWPR: most projections of a field; never more than joints"),
-    NUMBER("learner.lwpr_init_lambda", lwpr.init_lambda, NULL, "0.999", 0.99, 1,
-           "LWPR: forgetting factor of a new projection, 1 = none"),
-    NUMBER("learner.lwpr_final_lambda", lwpr.final_lambda, NULL, "0.99999", 0.99, 1,
-           "LWPR: forgetting factor in the end"),
-    NUMBER("learner.lwpr_tau_lambda", lwpr.tau_lambda, NULL, "0.9999", 0, 1,
-           "LWPR: how slowly one goes to the other"),
-    NUMBER("learner.lwpr_init_s2", lwpr.init_s2, NULL, "1e-10", 1e-30, 1e9,
-           "LWPR: what a projection's sum of squares begins with"),
-    NUMBER("learner.lwpr_norm_angle", lwpr_norm_angle, "deg", "1", 1e-6, 360,
+    NUMBER("learner.lwpr.norm_angle", lwpr_norm_angle, "deg", "1", 1e-6, 360,
            "LWPR: unit of the angles in the metric's cost"),
-    NUMBER("learner.lwpr_norm_disparity", lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
+    NUMBER("learner.lwpr.norm_disparity", lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
            "LWPR: unit of the disparity, likewise"),
     COUNT("learner.queue", learner_queue, "256", 1, 65536, "training samples that may wait"),
     COUNT("learner.quota", learner_quota, "4", 1, 1000, "samples learned in one tick of lockstep"),
@@ -175,6 +134,26 @@ static const struct option_row table[] = {
 const struct option_row *config_table(void)
 {
     return table;
+}
+
+/* What the learner's rows hold where no file names them: its own defaults for the Kobian's sizes,
+ * with experts that span the workspace, so that a tool is an expert. */
+static void preset(struct config *config)
+{
+    memset(config, 0, sizeof *config);
+    config->learner = learner_config_default(4, VISUAL_DIMENSIONS);
+    config->learner.features = LEARNER_POLYNOMIAL;
+    config->learner.clustering = LEARNER_CLUSTER_LEADER;
+    config->learner.inherit = true;
+    config->learner.most_bytes = most_bytes;
+}
+
+void config_print_options(FILE *out)
+{
+    struct config config;
+
+    preset(&config);
+    options_print(table, &config, out);
 }
 
 /* Two lists of limits: as long as each other and in order. */
@@ -260,6 +239,11 @@ static int check_learner(const struct config *config, char *error, size_t error_
     struct learner_config learner = config_learner(config);
     char reason[256];
 
+    if (learner.capacity > MOST_EXPERTS) {
+        snprintf(error, error_size, "learner.capacity is more than the %d that one tick can touch",
+                 MOST_EXPERTS);
+        return -1;
+    }
     if (learner_config_check(&learner, reason, sizeof reason) == 0)
         return 0;
     snprintf(error, error_size, "learner: %s", reason);
@@ -271,7 +255,7 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
 {
     char reason[320];
 
-    memset(config, 0, sizeof *config);
+    preset(config);
     if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
         return -1;
     if (check_range("arm", &config->arm_min, &config->arm_max, reason, sizeof reason) ||
@@ -316,42 +300,19 @@ static double square(double x)
 
 struct learner_config config_learner(const struct config *config)
 {
-    int n_inputs = config_arm_joints(config);
-    struct learner_config learner = learner_config_default(n_inputs, 3);
+    struct learner_config learner = config->learner;
 
     learner.kind = (enum learner_kind)config->learner_kind;
-    learner.features = (enum learner_features)config->learner_features;
-    learner.clustering = (enum learner_clustering)config->learner_clustering;
-    learner.degree = config->learner_degree;
-    learner.capacity = config->learner_capacity;
+    learner.n_inputs = config_arm_joints(config);
     learner.psi0[0] = learner.psi0[1] = square(config->learner_noise_angle);
     learner.psi0[2] = square(config->learner_noise_disparity);
-    for (int i = 0; i < n_inputs; i++) {
+    for (int i = 0; i < learner.n_inputs; i++) {
         learner.reference[i] = config->learner_reference.value[i];
         learner.scale[i] = config->learner_scale;
         learner.sigma0[i] = square(config->learner_reach);
     }
-    learner.alpha = config->learner_alpha;
-    learner.ridge = config->learner_ridge;
-    learner.hyper_sigma = config->learner_hyper_sigma;
-    learner.hyper_psi = config->learner_hyper_psi;
-    learner.prior_sigma = config->learner_prior_sigma;
-    learner.prior_psi = config->learner_prior_psi;
-    learner.prior_nu = config->learner_prior_nu;
-    learner.p0 = config->learner_p0;
-    learner.n_outliers = config->learner_outliers;
-    learner.significance = config->learner_significance;
-    learner.leader_level = config->learner_leader_level;
-    learner.kappa = config->learner_kappa;
-    learner.noise_share = config->learner_noise_share;
-    learner.gamma_floor = config->learner_gamma_floor;
-    learner.n_solutions_max = config->learner_solutions;
-    learner.em_pred_iterations = config->learner_em_iterations;
-    learner.inherit = config->learner_inherit;
-    learner.average_jacobian = config->learner_average_jacobian;
-    learner.lwpr = config->lwpr;
-    if (learner.lwpr.max_projections > n_inputs)
-        learner.lwpr.max_projections = n_inputs;
+    if (learner.lwpr.max_projections > learner.n_inputs)
+        learner.lwpr.max_projections = learner.n_inputs;
     learner.lwpr.norm_out[0] = learner.lwpr.norm_out[1] = config->lwpr_norm_angle;
     learner.lwpr.norm_out[2] = config->lwpr_norm_disparity;
     return learner;

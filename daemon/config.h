@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* Angles in radians, times in seconds, image distances in pixels. */
 struct config {
@@ -44,22 +45,13 @@ struct config {
     double singular_threshold, damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */
     double scale_angle, scale_disparity;    /* what counts as one in each task row */
 
-    int learner_kind, learner_features, learner_clustering;
-    int learner_degree, learner_capacity, learner_outliers, learner_solutions,
-        learner_em_iterations;
+    struct learner_config learner; /* its scalar rows; config_learner() adds the rest: */
+    int learner_kind;
     double learner_noise_angle, learner_noise_disparity; /* sqrt(Psi0) */
     double learner_reach;                                /* sqrt(sigma0), rad */
     struct option_list learner_reference;                /* rad */
     double learner_scale;                                /* rad */
-    double learner_alpha, learner_ridge, learner_p0;
-    double learner_hyper_sigma, learner_prior_sigma, learner_hyper_psi, learner_prior_psi;
-    double learner_prior_nu, learner_significance, learner_leader_level, learner_kappa;
-    double learner_noise_share;
-    double learner_gamma_floor;
-    bool learner_inherit, learner_average_jacobian;
-    struct learner_lwpr_config lwpr; /* all but norm_out, which is: */
-    double lwpr_norm_angle;          /* rad */
-    double lwpr_norm_disparity;      /* px */
+    double lwpr_norm_angle, lwpr_norm_disparity;         /* rad, px */
     int learner_queue, learner_quota;
 
     char model_directory[OPTION_MAX_TEXT];
@@ -71,8 +63,9 @@ struct config {
 int config_load(struct config *config, const char *const *paths, int n_paths,
                 const char *const *overrides, int n_overrides, char *error, size_t error_size);
 
-/* The table, for --help-options. */
+/* The table, and its reference for --help-options. */
 const struct option_row *config_table(void);
+void config_print_options(FILE *out);
 
 /* Numbers of joints. The arm's come first in states and commands. */
 static inline int config_arm_joints(const struct config *config)

@@ -90,7 +90,7 @@ struct learner_config {
 
     double psi0[LEARNER_MAX_OUTPUTS];  /* Psi0, VARIANCE of an output, > 0 */
     double sigma0[LEARNER_MAX_INPUTS]; /* VARIANCE of an expert's inputs, > 0 */
-    double alpha;                      /* forgetting exponent, 0.5 .. 1 (none); 0.999 */
+    double alpha;                      /* forgetting exponent, 0.9 .. 1 (none); 0.999 */
     double hyper_sigma;                /* w_sigma, strength of sigma0, or INFINITY; 2^d */
     double hyper_psi;                  /* w_psi, strength of psi0, or INFINITY; 2 D */
     double prior_sigma;                /* w_Sigma, an expert's input prior, >= d; 2^d */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "daemon/learner_private.h"
+#include "daemon/learner_rows.h"
 
 struct learner_config learner_config_default(int n_inputs, int n_outputs)
 {
@@ -58,16 +59,61 @@ int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err
 #define CHECK_RANGES(ranges, err, err_size)                                                        \
     learner_check_ranges(ranges, sizeof(ranges) / sizeof((ranges)[0]), err, err_size)
 
+/* Every row that is one number: the range that people are told of holds for programs, too. */
+#define ROW(name, type, field, minimum, maximum, choices, help)                                    \
+    {                                                                                              \
+        name, type, offsetof(struct learner_config, field), NULL, NULL, minimum, maximum, help,    \
+            choices                                                                                \
+    }
+static const struct option_row rows[] = {LEARNER_ROWS(ROW), OPTION_END};
+#undef ROW
+
+static double last_choice(const char *choices)
+{
+    double last = 0.0;
+
+    for (; *choices; choices++)
+        last += *choices == '|';
+    return last;
+}
+
+static struct learner_range range_of(const struct option_row *row,
+                                     const struct learner_config *config)
+{
+    const void *field = (const char *)config + row->offset;
+
+    switch (row->type) {
+    case OPTION_NUMBER:
+        return (struct learner_range){row->name, *(const double *)field, row->minimum,
+                                      row->maximum};
+    case OPTION_INT:
+        return (struct learner_range){row->name, *(const int *)field, row->minimum, row->maximum};
+    case OPTION_CHOICE:
+        return (struct learner_range){row->name, *(const int *)field, 0.0,
+                                      last_choice(row->choices)};
+    default: /* nothing to be out of range */
+        return (struct learner_range){row->name, 0.0, 0.0, 0.0};
+    }
+}
+
+static int check_rows(const struct learner_config *config, char *err, size_t err_size)
+{
+    for (const struct option_row *row = rows; row->name; row++) {
+        struct learner_range range = range_of(row, config);
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+/* What depends on the kind and the dimensions. */
 static int check_dimensions(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_range ranges[] = {
         {"kind", (int)config->kind, LEARNER_IMLE, LEARNER_LWPR},
         {"n_inputs", config->n_inputs, 1, LEARNER_MAX_INPUTS},
         {"n_outputs", config->n_outputs, 1, LEARNER_MAX_OUTPUTS},
-        {"capacity", config->capacity, 1, 65536},
-        {"most_bytes", config->most_bytes, 1, INFINITY},
-        {"features", (int)config->features, LEARNER_LINEAR, LEARNER_POLYNOMIAL},
-        {"degree", config->degree, 1, 6},
+        {"prior_sigma", config->prior_sigma, config->n_inputs, INFINITY},
     };
 
     return CHECK_RANGES(ranges, err, err_size);
@@ -103,47 +149,10 @@ static int check_variances(const struct learner_config *config, char *err, size_
     return 0;
 }
 
-static int check_learning(const struct learner_config *config, char *err, size_t err_size)
-{
-    const struct learner_range ranges[] = {
-        {"alpha", config->alpha, 0.9, 1.0},
-        {"hyper_sigma", config->hyper_sigma, 1e-3, INFINITY},
-        {"hyper_psi", config->hyper_psi, 1e-3, INFINITY},
-        {"prior_sigma", config->prior_sigma, config->n_inputs, 1e9},
-        {"prior_nu", config->prior_nu, 0.0, 1e9},
-        {"prior_psi", config->prior_psi, 1e-9, INFINITY},
-        {"ridge", config->ridge, 1e-12, 1e9},
-        {"prior_floor", config->prior_floor, 1e-9, 1.0},
-        {"n_outliers", config->n_outliers, 0, 1000},
-        {"p0", config->p0, 1e-9, 1.0 - 1e-9},
-        {"skip", config->skip, 0.0, 0.1},
-    };
-
-    return CHECK_RANGES(ranges, err, err_size);
-}
-
-static int check_prediction(const struct learner_config *config, char *err, size_t err_size)
-{
-    const struct learner_range ranges[] = {
-        {"n_solutions_max", config->n_solutions_max, 1, LEARNER_MAX_SOLUTIONS},
-        {"clustering", (int)config->clustering, LEARNER_CLUSTER_PUBLISHED, LEARNER_CLUSTER_LEADER},
-        {"significance", config->significance, 0.0, 1.0},
-        {"leader_level", config->leader_level, 0.0, 1.0 - 1e-9},
-        {"kappa", config->kappa, 0.0, 4.0},
-        {"em_pred_iterations", config->em_pred_iterations, 0, 100},
-        {"noise_share", config->noise_share, 1e-12, 1e6},
-        {"gamma_floor", config->gamma_floor, 0.0, 1e6},
-        {"kernels", (int)config->kernels, LEARNER_KERNELS_AUTO, LEARNER_KERNELS_AVX512},
-    };
-
-    return CHECK_RANGES(ranges, err, err_size);
-}
-
 int learner_config_check(const struct learner_config *config, char *err, size_t err_size)
 {
-    if (check_dimensions(config, err, err_size) != 0 || check_scales(config, err, err_size) != 0 ||
-        check_variances(config, err, err_size) != 0 || check_learning(config, err, err_size) != 0 ||
-        check_prediction(config, err, err_size) != 0)
+    if (check_dimensions(config, err, err_size) != 0 || check_rows(config, err, err_size) != 0 ||
+        check_scales(config, err, err_size) != 0 || check_variances(config, err, err_size) != 0)
         return -1;
     return learner_ops_of(config->kind)->check(config, err, err_size);
 }

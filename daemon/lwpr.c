@@ -28,26 +28,18 @@ struct learner_lwpr_config learner_lwpr_default(int n_inputs)
     return p;
 }
 
+/* What rows of each other ask; each alone has been checked. */
 static int check(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
     const struct learner_range ranges[] = {
-        {"init_d", p->init_d, 1e-6, 1e9},
-        {"init_alpha", p->init_alpha, 0.0, 1e9},
-        {"penalty", p->penalty, 0.0, 1e9},
-        {"w_gen", p->w_gen, 1e-9, 0.99},
-        {"w_prune", p->w_prune, p->w_gen, 1.0},
-        {"cutoff", p->cutoff, 1e-12, p->w_gen},
-        {"init_lambda", p->init_lambda, 0.99, 1.0},
-        {"final_lambda", p->final_lambda, 0.99, 1.0},
-        {"tau_lambda", p->tau_lambda, 0.0, 1.0},
-        {"init_s2", p->init_s2, 1e-30, 1e9},
-        {"add_threshold", p->add_threshold, 0.0, 1.0},
-        {"max_projections", p->max_projections, 1, config->n_inputs},
+        {"lwpr.w_prune", p->w_prune, p->w_gen, 1.0},
+        {"lwpr.cutoff", p->cutoff, 0.0, p->w_gen},
+        {"lwpr.max_projections", p->max_projections, 1, config->n_inputs},
     };
 
     for (int i = 0; i < config->n_outputs; i++) {
-        const struct learner_range norm = {"norm_out", p->norm_out[i], 1e-9,
+        const struct learner_range norm = {"lwpr.norm_out", p->norm_out[i], 1e-9,
                                            LEARNER_LARGEST_NUMBER};
         if (learner_check_ranges(&norm, 1, err, err_size) != 0)
             return -1;

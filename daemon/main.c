@@ -93,7 +93,7 @@ static int take_option(struct arguments *arguments, int option)
         arguments->no_rt = true;
         return -1;
     case OPTION_HELP_OPTIONS:
-        options_print(config_table(), stdout);
+        config_print_options(stdout);
         return 0;
     case OPTION_VERSION:
         puts("reachd " REACH_VERSION);

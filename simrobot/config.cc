@@ -182,7 +182,7 @@ bool config_load(Config *config, const char *path, const char *const *overrides,
 
 void config_print_options(FILE *out)
 {
-    options_print(table(), out);
+    options_print(table(), nullptr, out);
 }
 
 } // namespace sim

@@ -97,7 +97,7 @@ int config_load(vision_config *config, const char *path, const char *const *over
 
 void config_print(FILE *out)
 {
-    options_print(table, out);
+    options_print(table, nullptr, out);
 }
 
 eyes_config config_eyes(const vision_config &c)

@@ -1,5 +1,5 @@
-/* The learner's parameters as options: names and meanings are those of struct learner_config in
- * daemon/learner.h, in YAML without a prefix ("degree: 4", "psi0: [1e-4, 1e-4, 9]") or as
+/* The learner's parameters as options: the rows of daemon/learner_rows.h and the arrays of struct
+ * learner_config, in YAML without a prefix ("degree: 4", "psi0: [1e-4, 1e-4, 9]") or as
  * "name=value". Defaults are those of learner_config_default(). */
 #ifndef REACH_EVAL_LEARNER_OPTIONS_H
 #define REACH_EVAL_LEARNER_OPTIONS_H

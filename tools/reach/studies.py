@@ -168,7 +168,7 @@ def _over_two(result: dict) -> float:
     return sum(result["test"]["Q"]["solutions_histogram"][3:])
 
 
-ONE_INPUT = ("features=linear", "psi0=0.01", "hyper_psi=.inf", "prior_psi=.inf", "sigma0=0.1",
+ONE_INPUT = ("experts=linear", "psi0=0.01", "hyper_psi=.inf", "prior_psi=.inf", "sigma0=0.1",
              "clustering=leader", "leader_level=0.9", "kappa=1")  # fmt: skip
 
 

@@ -180,13 +180,55 @@ START_TEST(a_missing_file_and_a_missing_value_are_told)
 }
 END_TEST
 
+START_TEST(values_become_the_text_that_gives_them)
+{
+    static const char *const texts[] = {"true", "7", "0.25", "180", "[-30, 45.5]", "nao", "blue"};
+    struct settings settings;
+    char infinite[OPTION_TEXT_SIZE];
+
+    for (int i = 0; table[i].name; i++) {
+        char override[OPTION_TEXT_SIZE], text[OPTION_TEXT_SIZE];
+        const char *overrides[] = {override};
+        snprintf(override, sizeof override, "%s=%s", table[i].name, texts[i]);
+        ck_assert_int_eq(options_load(table, &settings, NULL, 0, overrides, 1, error, sizeof error),
+                         0);
+        option_text(&table[i], &settings, text);
+        ck_assert_str_eq(text, texts[i]);
+    }
+    settings.limit = INFINITY;
+    option_text(option_find(table, "arm.limit"), &settings, infinite);
+    ck_assert_str_eq(infinite, ".inf");
+}
+END_TEST
+
+START_TEST(what_the_program_puts_in_is_the_default)
+{
+    const struct option_row rows[] = {ROW(count, OPTION_INT, NULL, option_preset, 1, 10, NULL),
+                                      ROW(gain, OPTION_NUMBER, NULL, option_preset, 0, 5, NULL),
+                                      OPTION_END};
+    const char *overrides[] = {"arm.gain=4"};
+    struct settings settings = {.count = 8, .gain = 3};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+
+    options_print(rows, &settings, stream);
+    fclose(stream);
+    ck_assert_ptr_nonnull(strstr(text, "default 8, range 1 .. 10"));
+    free(text);
+    ck_assert_int_eq(options_load(rows, &settings, NULL, 0, overrides, 1, error, sizeof error), 0);
+    ck_assert_int_eq(settings.count, 8);
+    ck_assert_double_eq(settings.gain, 4);
+}
+END_TEST
+
 START_TEST(the_reference_names_every_row)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
 
-    options_print(table, stream);
+    options_print(table, NULL, stream);
     fclose(stream);
     for (const struct option_row *row = table; row->name; row++)
         ck_assert_ptr_nonnull(strstr(text, row->name));
@@ -207,6 +249,8 @@ int main(void)
         a_list_longer_than_the_reader_holds_is_refused,
         what_is_no_map_is_refused,
         a_missing_file_and_a_missing_value_are_told,
+        values_become_the_text_that_gives_them,
+        what_the_program_puts_in_is_the_default,
         the_reference_names_every_row,
     };
 

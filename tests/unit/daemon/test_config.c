@@ -73,9 +73,20 @@ START_TEST(the_linear_learner_s_file_fits)
 {
     struct config config = fixture_learner_config("learner-linear.yaml");
 
-    ck_assert_int_eq(config.learner_features, LEARNER_LINEAR);
+    ck_assert_int_eq(config.learner.features, LEARNER_LINEAR);
     ck_assert_double_eq(config.learner_noise_disparity, 6);
-    ck_assert_double_eq(config.learner_alpha, 0.999);
+    ck_assert_double_eq(config.learner.alpha, 0.999);
+}
+END_TEST
+
+START_TEST(the_learner_s_memory_is_bounded)
+{
+    const char *overrides[] = {"learner.most_bytes=3e5", "learner.capacity=1024"};
+    struct config config = fixture_config(overrides, 2);
+    struct learner_config learner = config_learner(&config);
+
+    ck_assert_uint_gt(learner_memory(&learner), 200000);
+    ck_assert_uint_le(learner_memory(&learner), 300000);
 }
 END_TEST
 
@@ -105,6 +116,10 @@ START_TEST(what_does_not_fit_together_is_refused)
     refuses("head.search_velocity=100", "head.search_velocity");
     refuses("learner.reference=[0]", "learner.reference");
     refuses("learner.reach=nonsense", "not a number");
+    refuses("learner.capacity=1025", "one tick can touch");
+    refuses("learner.alpha=0.5", "learner.alpha: 0.5 is out of range 0.9 .. 1");
+    refuses("learner.prior_sigma=3", "learner: prior_sigma is 3");
+    refuses("learner.lwpr.w_prune=2", "learner.lwpr.w_prune: 2 is out of range");
 }
 END_TEST
 
@@ -114,6 +129,7 @@ int main(void)
                                   the_shipped_configuration_names_every_option,
                                   the_file_of_receptive_fields_fits,
                                   the_linear_learner_s_file_fits,
+                                  the_learner_s_memory_is_bounded,
                                   the_learner_gets_variances,
                                   what_does_not_fit_together_is_refused};
 

@@ -201,11 +201,11 @@ class Numbers(Fixture):
                          [learned["samples"], learned["samples"] + 300])  # fmt: skip
 
     def test_parameters_are_reported(self):
-        config = self.text("c.yaml", "degree: 2\nfeatures: polynomial\nreference: [1, 2, 3]\n")
+        config = self.text("c.yaml", "degree: 2\nexperts: polynomial\nreference: [1, 2, 3]\n")
         train = self.write("a.csv", samples(20, 1))
         report = self.evaluate("--train", train, "--config", config, "--param", "degree=4")
         parameters = report["parameters"]
-        self.assertEqual((parameters["degree"], parameters["features"]), (4, "polynomial"))
+        self.assertEqual((parameters["degree"], parameters["experts"]), (4, "polynomial"))
         self.assertEqual(parameters["reference"], [1, 2, 3])
         self.assertEqual(parameters["psi0"], [0.01, 0.01])
         self.assertEqual(parameters["prior_psi"], ".inf")
@@ -216,8 +216,9 @@ class Numbers(Fixture):
         self.assertIn("gamma_floor", fields)
         listed = run("--learner", "imle", "--inputs", 3, "--outputs", 2, "--help-options").stdout
         options = set(re.findall(r"^([\w.]+) ", listed, re.M))
-        self.assertEqual(fields - {"kind", "n_inputs", "n_outputs"}, options)
-        self.assertRegex(listed, r"hyper_sigma .*\n +default 8\n")  # 2^d
+        expected = fields - {"kind", "n_inputs", "n_outputs", "features"} | {"experts"}
+        self.assertEqual(expected, options)
+        self.assertRegex(listed, r"hyper_sigma .*\n +default 8, ")  # 2^d
 
     def test_shipped_configurations_are_taken(self):
         rng = np.random.default_rng(1)
@@ -305,7 +306,7 @@ class Mistakes(Fixture):
             (["--param", "degree=two"], "--param:1: degree: 'two' is not a number"),
             (["--param", "degree"], "'degree': name=value is wanted"),
             (["--param", "psi0=[1, 2, 3]"], "psi0 has 3 entries; wanted: 2, or one number"),
-            (["--param", "alpha=0.5"], "alpha is 0.5: must be between"),
+            (["--param", "alpha=0.5"], "--param:1: alpha: 0.5 is out of range 0.9 .. 1"),
             (["--param", "clustering=none"], "'none' is not one of published|split|leader"),
             (["--config", self.folder / "no.yaml"], "no.yaml: No such file"),
             (["--config", self.text("bad.yaml", "degree: 2\nkind: imle\n")],

@@ -1,0 +1,89 @@
+/* Options as text: their values, and the reference that --help-options prints. */
+#include <math.h>
+#include <string.h>
+
+#include "common/options.h"
+
+/* Appends the number as people write it, between two marks. */
+static void append(const struct option_row *row, const char *before, double value,
+                   const char *after, char text[OPTION_TEXT_SIZE])
+{
+    size_t used = strlen(text);
+    size_t room = OPTION_TEXT_SIZE - used;
+
+    if (isinf(value))
+        snprintf(text + used, room, "%s%s.inf%s", before, value > 0 ? "" : "-", after);
+    else
+        snprintf(text + used, room, "%s%.12g%s", before, value / option_unit_factor(row), after);
+}
+
+static void list_text(const struct option_row *row, const struct option_list *list,
+                      char text[OPTION_TEXT_SIZE])
+{
+    bool single = row->type == OPTION_SPREAD && list->n == 1;
+
+    for (int i = 0; i < list->n; i++)
+        if (single)
+            append(row, "", list->value[i], "", text);
+        else
+            append(row, i == 0 ? "[" : ", ", list->value[i], i == list->n - 1 ? "]" : "", text);
+}
+
+static void choice_text(const struct option_row *row, int index, char text[OPTION_TEXT_SIZE])
+{
+    const char *word = row->choices;
+
+    while (index-- > 0)
+        word = strchr(word, '|') + 1;
+    snprintf(text, OPTION_TEXT_SIZE, "%.*s", (int)strcspn(word, "|"), word);
+}
+
+void option_text(const struct option_row *row, const void *target, char text[OPTION_TEXT_SIZE])
+{
+    const void *field = (const char *)target + row->offset;
+
+    text[0] = '\0';
+    switch (row->type) {
+    case OPTION_BOOL:
+        snprintf(text, OPTION_TEXT_SIZE, *(const bool *)field ? "true" : "false");
+        break;
+    case OPTION_INT:
+        snprintf(text, OPTION_TEXT_SIZE, "%d", *(const int *)field);
+        break;
+    case OPTION_NUMBER:
+        append(row, "", *(const double *)field, "", text);
+        break;
+    case OPTION_LIST:
+    case OPTION_SPREAD:
+        list_text(row, (const struct option_list *)field, text);
+        break;
+    case OPTION_TEXT:
+        snprintf(text, OPTION_TEXT_SIZE, "%s", (const char *)field);
+        break;
+    case OPTION_CHOICE:
+        choice_text(row, *(const int *)field, text);
+        break;
+    }
+}
+
+void options_print(const struct option_row *table, const void *preset, FILE *out)
+{
+    for (; table->name; table++) {
+        char value[OPTION_TEXT_SIZE] = "";
+        if (table->initial == option_preset)
+            option_text(table, preset, value);
+        else if (table->initial)
+            snprintf(value, sizeof value, "%s", table->initial);
+        bool given = table->initial && table->initial != option_preset;
+        fprintf(out, "%-36s %s\n", table->name, table->help);
+        fprintf(out, "%-36s ", "");
+        fprintf(out, given || value[0] ? "default %s" : "must be given", value);
+        if (table->unit)
+            fprintf(out, ", unit %s", table->unit);
+        if (table->choices)
+            fprintf(out, ", one of %s", table->choices);
+        if (table->minimum != 0 || table->maximum != 0)
+            fprintf(out, ", range %g .. %g", table->minimum, table->maximum);
+        fputc('\n', out);
+    }
+}
