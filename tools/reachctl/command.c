@@ -139,8 +139,12 @@ static int fill_until(const struct context *context)
     return 0;
 }
 
-static const struct command daemon_commands[] = {
+static const struct command looking_commands[] = {
     {"status", "", 0, CALL_STATUS, 0, NULL, "how the daemon is; --json for programs"},
+    {"top", "", 0, CALL_TOP, 0, NULL, "the bus at a glance, until q is pressed; --once: one frame"},
+    {0}};
+
+static const struct command daemon_commands[] = {
     {"babble", "N", 1, CALL_DAEMON, REACH_REQUEST_T_BABBLE, fill_babble,
      "collect N samples; --seed S, --frozen tests the model instead of teaching it"},
     {"coordinate", "", 0, CALL_DAEMON, REACH_REQUEST_T_COORDINATE, fill_coordinate,
@@ -191,7 +195,9 @@ int command_parse(const char *const *words, int n_words, const struct command_se
         snprintf(error, error_size, "a command is wanted; reachctl --help lists them");
         return -1;
     }
-    command = find(is_sim ? simulator_commands : daemon_commands, name);
+    command = find(is_sim ? simulator_commands : looking_commands, name);
+    if (!command && !is_sim)
+        command = find(daemon_commands, name);
     if (!command) {
         snprintf(error, error_size, "unknown command '%s%s'; reachctl --help lists them",
                  is_sim ? "sim " : "", name);
@@ -221,6 +227,8 @@ static void print_table(FILE *out, const struct command *table, const char *pref
 
 void command_print_help(FILE *out)
 {
+    fprintf(out, "commands to look:\n");
+    print_table(out, looking_commands, "");
     fprintf(out, "commands to the daemon:\n");
     print_table(out, daemon_commands, "");
     fprintf(out, "commands to the simulator, for the experimenter:\n");

@@ -14,6 +14,7 @@ struct command_settings {
     double timeout;   /* s to wait for an answer */
     bool wait;        /* until the behaviour has ended */
     bool json;        /* status: as JSON */
+    bool once;        /* top: one frame */
     bool frozen;      /* do not learn */
     int64_t seed;     /* of babbling's random configurations */
     double period;    /* s for each target, 0: the command's own */
@@ -24,6 +25,7 @@ void command_defaults(struct command_settings *settings);
 
 enum call_kind {
     CALL_STATUS,     /* show the daemon's status */
+    CALL_TOP,        /* show what is on the bus, over and over */
     CALL_DAEMON,     /* send `request` */
     CALL_SIMULATOR,  /* send `sim` */
     CALL_UNANSWERED, /* send `sim`, whose receiver ends before it could answer */

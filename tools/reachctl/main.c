@@ -2,6 +2,7 @@
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/show.h"
+#include "tools/reachctl/top.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -19,6 +20,7 @@ static const char usage[] =
     "  --timeout S     wait this long for an answer; default 5\n"
     "  --wait          until what was asked for has ended\n"
     "  --json          status as JSON\n"
+    "  --once          top: one frame, then the end\n"
     "  --seed S        of babbling's random configurations; default 1\n"
     "  --frozen        use the model without teaching it\n"
     "  --file F        targets of coordinate, lines 'u v disparity' in pixels\n"
@@ -34,6 +36,7 @@ enum long_option {
     OPTION_TIMEOUT,
     OPTION_WAIT,
     OPTION_JSON,
+    OPTION_ONCE,
     OPTION_SEED,
     OPTION_FROZEN,
     OPTION_FILE,
@@ -44,6 +47,7 @@ static const struct option long_options[] = {{"url", required_argument, NULL, OP
                                              {"timeout", required_argument, NULL, OPTION_TIMEOUT},
                                              {"wait", no_argument, NULL, OPTION_WAIT},
                                              {"json", no_argument, NULL, OPTION_JSON},
+                                             {"once", no_argument, NULL, OPTION_ONCE},
                                              {"seed", required_argument, NULL, OPTION_SEED},
                                              {"frozen", no_argument, NULL, OPTION_FROZEN},
                                              {"file", required_argument, NULL, OPTION_FILE},
@@ -96,6 +100,9 @@ static int take_option(int option, struct command_settings *settings)
         return 0;
     case OPTION_JSON:
         settings->json = true;
+        return 0;
+    case OPTION_ONCE:
+        settings->once = true;
         return 0;
     case OPTION_SEED:
         return whole(optarg, &settings->seed);
@@ -165,8 +172,9 @@ static int show_status(struct client *client, const struct command_settings *set
     return 0;
 }
 
-static int carry_out(struct client *client, struct call *call,
-                     const struct command_settings *settings, char *error, size_t error_size)
+/* What needs somebody who answers. */
+static int ask(struct client *client, struct call *call, const struct command_settings *settings,
+               char *error, size_t error_size)
 {
     switch (call->kind) {
     case CALL_STATUS:
@@ -181,8 +189,25 @@ static int carry_out(struct client *client, struct call *call,
         return client_ask_simulator(client, &call->sim, settings->timeout, error, error_size);
     case CALL_UNANSWERED:
         return client_tell_simulator(client, &call->sim);
+    default:
+        return -1;
     }
-    return -1;
+}
+
+static int carry_out(struct call *call, const struct command_settings *settings, char *error,
+                     size_t error_size)
+{
+    struct client *client;
+    int result;
+
+    if (call->kind == CALL_TOP)
+        return top_run(settings->url, settings->once, settings->timeout, error, error_size);
+    client = client_create(settings->url, error, error_size);
+    if (!client)
+        return -1;
+    result = ask(client, call, settings, error, error_size);
+    client_destroy(client);
+    return result;
 }
 
 int main(int argc, char **argv)
@@ -190,7 +215,6 @@ int main(int argc, char **argv)
     struct command_settings settings;
     struct words words = {0};
     struct call call = {0};
-    struct client *client;
     char error[512] = "the bus failed";
     int result;
 
@@ -201,10 +225,8 @@ int main(int argc, char **argv)
         return result < 0 ? EXIT_SUCCESS : result;
     if (command_parse(words.text, words.n, &settings, &call, error, sizeof error))
         return wrong_usage(error);
-    client = client_create(settings.url, error, sizeof error);
-    result = client ? carry_out(client, &call, &settings, error, sizeof error) : -1;
+    result = carry_out(&call, &settings, error, sizeof error);
     if (result)
         fprintf(stderr, "reachctl: %s\n", error);
-    client_destroy(client);
     return result ? EXIT_FAILURE : EXIT_SUCCESS;
 }

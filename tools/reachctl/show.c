@@ -30,25 +30,25 @@ const char *show_result(int result)
     return word(results, COUNT(results), result);
 }
 
-static const char *state_word(const reach_status_t *status)
+const char *show_state(const reach_status_t *status)
 {
     return word(states, COUNT(states), status->state);
 }
 
-static const char *behaviour_word(const reach_status_t *status)
+const char *show_behaviour(const reach_status_t *status)
 {
     return word(behaviours, COUNT(behaviours), status->behaviour);
 }
 
-static const char *phase_word(const reach_status_t *status)
+const char *show_phase(const reach_status_t *status)
 {
     return word(phases, COUNT(phases), status->phase);
 }
 
 void show_text(const reach_status_t *status, FILE *out)
 {
-    fprintf(out, "state      %s, behaviour %s, phase %s\n", state_word(status),
-            behaviour_word(status), phase_word(status));
+    fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
+            show_behaviour(status), show_phase(status));
     fprintf(out, "progress   %d of %d, %d given up; error %.1f px\n", status->progress,
             status->progress_total, status->skipped, status->error_px);
     fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
@@ -151,8 +151,8 @@ static void print_list(const char *name, const double *values, int n, FILE *out)
 
 void show_json(const reach_status_t *status, FILE *out)
 {
-    fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", state_word(status),
-            behaviour_word(status), phase_word(status));
+    fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", show_state(status),
+            show_behaviour(status), show_phase(status));
     fprintf(out, ", \"request_result\": \"%s\"", show_result(status->request_result));
     for (size_t i = 0; i < COUNT(fields); i++) {
         fprintf(out, ", \"%s\": ", fields[i].name);
@@ -168,6 +168,6 @@ void show_progress(const reach_status_t *status, bool last)
     if (!isatty(STDERR_FILENO))
         return;
     fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f px\033[K%s",
-            behaviour_word(status), phase_word(status), status->progress, status->progress_total,
+            show_behaviour(status), show_phase(status), status->progress, status->progress_total,
             status->skipped, status->experts, status->error_px, last ? "\n" : "");
 }

@@ -15,6 +15,11 @@ void show_json(const reach_status_t *status, FILE *out);
 /* Rewrites one line on stderr, where that is a terminal; `last` ends it. */
 void show_progress(const reach_status_t *status, bool last);
 
+/* The words for what the daemon does. */
+const char *show_state(const reach_status_t *status);
+const char *show_behaviour(const reach_status_t *status);
+const char *show_phase(const reach_status_t *status);
+
 /* What a request_result means. */
 const char *show_result(int result);
 

@@ -1,0 +1,68 @@
+"""A scripted daemon and simulator, and reachctl against them, for tests on a bus of their own."""
+
+import os
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import lcm
+from reach.bus import DEFAULT_URL
+from reach.messages import reach
+
+REACHCTL = Path(os.environ["REACH_BUILD_DIR"]) / "bin/reachctl"
+
+
+class Scripted(threading.Thread):
+    """Answers requests the way daemon and simulator do; a behaviour takes three statuses."""
+
+    def __init__(self, result: int = reach.status_t.ACCEPTED):
+        super().__init__(daemon=True)
+        self.result = result
+        self.requests: list[reach.request_t] = []
+        self.sim_requests: list[reach.sim_request_t] = []
+        self._busy = 0
+        self._halt = threading.Event()
+        self._lcm = lcm.LCM(DEFAULT_URL)
+        self._lcm.subscribe("REACH_REQUEST", self._on_request)
+        self._lcm.subscribe("SIM_REQUEST", self._on_sim_request)
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        self._halt.set()
+        self.join()
+
+    def _on_request(self, _, data):
+        self.requests.append(reach.request_t.decode(data))
+        self._busy = 3
+
+    def _on_sim_request(self, _, data):
+        self.sim_requests.append(reach.sim_request_t.decode(data))
+
+    def run(self):
+        while not self._halt.is_set():
+            self._lcm.handle_timeout(20)
+            self._publish_status()
+            truth = reach.sim_truth_t()
+            truth.request_seq = self.sim_requests[-1].seq if self.sim_requests else 0
+            self._lcm.publish("SIM_TRUTH", truth.encode())
+
+    def _publish_status(self):
+        status = reach.status_t()
+        status.utime = int(time.time() * 1e6)
+        status.state, status.n_outputs, status.experts = reach.status_t.IDLE, 3, 7
+        status.staleness = float("inf")
+        status.request_result = self.result
+        if self.requests:
+            status.request_seq = self.requests[-1].seq
+        self._busy = max(0, self._busy - 1)
+        status.behaviour = reach.status_t.REACH if self._busy else reach.status_t.NONE
+        self._lcm.publish("REACH_STATUS", status.encode())
+
+
+def reachctl(*words: str) -> subprocess.CompletedProcess:
+    command = [REACHCTL, *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=20)
