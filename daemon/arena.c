@@ -3,6 +3,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 struct arena {
     unsigned char *base;
@@ -56,6 +58,15 @@ void *arena_alloc(struct arena *arena, size_t bytes)
     void *block = arena->base + arena->used;
     arena->used += need;
     return block;
+}
+
+int arena_lock(struct arena *arena, bool locked)
+{
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    size_t before = (page - (uintptr_t)arena->base % page) % page;
+    size_t whole = arena->size > before ? (arena->size - before) / page * page : 0;
+
+    return locked ? mlock(arena->base + before, whole) : munlock(arena->base + before, whole);
 }
 
 size_t arena_used(const struct arena *arena)

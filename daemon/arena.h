@@ -7,6 +7,7 @@
 #ifndef REACH_ARENA_H
 #define REACH_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -34,6 +35,9 @@ void *arena_alloc(struct arena *arena, size_t bytes);
 /* What a block of `bytes` takes from an arena; SIZE_MAX when that cannot be
  * represented. Sums of this predict the size that arena_create() needs. */
 size_t arena_footprint(size_t bytes);
+
+/* Locks the arena's whole pages into memory, or lets them go again. Returns 0, or -1 with errno. */
+int arena_lock(struct arena *arena, bool locked);
 
 /* Bytes taken so far, and in all. */
 size_t arena_used(const struct arena *arena);

@@ -127,7 +127,15 @@ static const struct option_row table[] = {
     COUNT("learner.quota", learner_quota, "4", 1, 1000, "samples learned in one tick of lockstep"),
 
     {"model.directory", OPTION_TEXT, offsetof(struct config, model_directory), NULL, "", 0, 0,
-     "where models are saved; empty: saving is refused", NULL},
+     "where the model is kept and saved; empty: neither", NULL},
+    FLAG("model.automatic", model_automatic, "true",
+         "keep what is learned as it is learned, and go on from it at the next start"),
+    COUNT("model.snapshot", model_snapshot, "500", 1, 1000000,
+          "samples in the journal after which a snapshot is made: bounds the time of a start"),
+    NUMBER("model.sync", model_sync, "s", "0.5", 0, 3600,
+           "longest time that a learned sample waits to be stored"),
+    COUNT("model.keep", model_keep, "2", 1, 1000,
+          "snapshots on disk; with two or more, one that is damaged can be rebuilt"),
     OPTION_END,
 };
 

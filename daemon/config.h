@@ -55,6 +55,9 @@ struct config {
     int learner_queue, learner_quota;
 
     char model_directory[OPTION_MAX_TEXT];
+    bool model_automatic;
+    int model_snapshot, model_keep;
+    double model_sync; /* s */
 };
 
 /* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks

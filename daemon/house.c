@@ -51,7 +51,7 @@ void house_keep(struct house *house)
         int signal = sigtimedwait(&signals, NULL, &period);
         if (signal == SIGINT || signal == SIGTERM)
             return;
-        model_store_serve(house->store);
+        model_store_serve(house->store, bus_monotonic_us());
         say_what_is_awaited(house);
     }
 }

@@ -146,6 +146,24 @@ static bool wait_for_marker(struct loop *loop, int64_t due)
     return true;
 }
 
+/* The simulator holds the clock: a run's bytes must not depend on how fast the disk is. */
+static void await_store(struct loop *loop)
+{
+    const struct timespec moment = {.tv_nsec = 1000000};
+
+    while (tick_awaits_store(loop->tick) && !ending(loop))
+        nanosleep(&moment, NULL);
+}
+
+static void learn_quota(struct loop *loop)
+{
+    for (int i = 0; i < loop->config->learner_quota; i++) {
+        await_store(loop);
+        if (!tick_learn(loop->tick))
+            break;
+    }
+}
+
 /* One period of lockstep for a state that was not answered yet. */
 static void step_lockstep(struct loop *loop)
 {
@@ -164,8 +182,7 @@ static void step_lockstep(struct loop *loop)
     take_requests(loop);
     decide(loop, state->utime);
     timing_add(&loop->compute, (double)(bus_monotonic_us() - begin));
-    for (int i = 0; i < loop->config->learner_quota && tick_learn(loop->tick); i++)
-        ;
+    learn_quota(loop);
     report(loop, state->utime);
 }
 

@@ -36,12 +36,18 @@ static unsigned char *slot(const struct mailbox *mailbox, uint32_t index)
     return mailbox->records + (size_t)(index & (mailbox->capacity - 1)) * mailbox->record_size;
 }
 
+bool mailbox_full(const struct mailbox *mailbox)
+{
+    return atomic_load_explicit(&mailbox->written, memory_order_relaxed) -
+               atomic_load_explicit(&mailbox->taken, memory_order_acquire) ==
+           mailbox->capacity;
+}
+
 bool mailbox_put(struct mailbox *mailbox, const void *record)
 {
     uint32_t written = atomic_load_explicit(&mailbox->written, memory_order_relaxed);
-    uint32_t taken = atomic_load_explicit(&mailbox->taken, memory_order_acquire);
 
-    if (written - taken == mailbox->capacity) {
+    if (mailbox_full(mailbox)) {
         atomic_fetch_add_explicit(&mailbox->refused, 1, memory_order_relaxed);
         return false;
     }

@@ -29,6 +29,9 @@ bool mailbox_take(struct mailbox *mailbox, void *record);
 /* Copies the oldest record out and leaves it in. Returns false when the box is empty. */
 bool mailbox_peek(const struct mailbox *mailbox, void *record);
 
+/* Whether the putting thread would be refused. */
+bool mailbox_full(const struct mailbox *mailbox);
+
 /* Records refused so far. */
 uint64_t mailbox_refused(const struct mailbox *mailbox);
 

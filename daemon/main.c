@@ -28,7 +28,7 @@ struct arguments {
     const char *url;
     const char *overrides[MAX_OVERRIDES];
     int n_overrides;
-    bool lockstep, no_rt, verbose;
+    bool lockstep, no_rt, check_model, verbose;
 };
 
 /* Everything that lives from start to end. */
@@ -53,12 +53,15 @@ static const char usage[] =
     "  -l, --lockstep        the simulator's clock, not the real one\n"
     "      --no-rt           real time without priority and locked memory, for developers\n"
     "  -v, --verbose         say more\n"
+    "      --check-model     print the samples and the hash of the model in model.directory, or "
+    "what\n"
+    "                        is wrong with it, and change nothing\n"
     "      --help-options    list every option of the configuration\n"
     "      --version         print the version\n"
     "  -h, --help            print this\n\n"
     "Exit status: 0 ended as asked, 1 could not start or run, 2 wrong usage.\n";
 
-enum { OPTION_NO_RT = 256, OPTION_HELP_OPTIONS, OPTION_VERSION };
+enum { OPTION_NO_RT = 256, OPTION_CHECK_MODEL, OPTION_HELP_OPTIONS, OPTION_VERSION };
 
 static int wrong_usage(const char *what)
 {
@@ -92,6 +95,9 @@ static int take_option(struct arguments *arguments, int option)
     case OPTION_NO_RT:
         arguments->no_rt = true;
         return -1;
+    case OPTION_CHECK_MODEL:
+        arguments->check_model = true;
+        return -1;
     case OPTION_HELP_OPTIONS:
         config_print_options(stdout);
         return 0;
@@ -114,6 +120,7 @@ static int parse(struct arguments *arguments, int argc, char **argv)
         {"url", required_argument, NULL, 'u'},
         {"lockstep", no_argument, NULL, 'l'},
         {"no-rt", no_argument, NULL, OPTION_NO_RT},
+        {"check-model", no_argument, NULL, OPTION_CHECK_MODEL},
         {"verbose", no_argument, NULL, 'v'},
         {"help-options", no_argument, NULL, OPTION_HELP_OPTIONS},
         {"version", no_argument, NULL, OPTION_VERSION},
@@ -179,7 +186,7 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
         return -1;
     }
     reachd->tick = tick_create(&reachd->config, reachd->arena, error, error_size);
-    if (!reachd->tick)
+    if (!reachd->tick || tick_open_model(reachd->tick, error, error_size))
         return -1;
     reachd->bus = daemon_bus_create(reachd->lcm, reachd->arena, error, error_size);
     if (!reachd->bus)
@@ -199,10 +206,22 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
 
 static void tear_down(struct reachd *reachd)
 {
+    if (reachd->tick)
+        model_store_close(tick_model_store(reachd->tick));
     if (reachd->lcm)
         lcm_destroy(reachd->lcm);
     bus_claim_free(reachd->claim);
     arena_destroy(reachd->arena);
+}
+
+static int check_model(const struct config *config, char *error, size_t error_size)
+{
+    const struct model_store_settings settings = tick_store_settings(config);
+
+    if (model_store_check(&settings, error, error_size))
+        return -1;
+    puts(error);
+    return 0;
 }
 
 static int run(struct reachd *reachd, char *error, size_t error_size)
@@ -221,6 +240,8 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
     log_info("ready");
     house.loop = reachd->loop;
     house.store = tick_model_store(reachd->tick);
+    if (!reachd->arguments.lockstep && !reachd->arguments.no_rt)
+        model_store_unlock_memory(house.store);
     house_keep(&house);
     loop_stop(reachd->loop);
     daemon_bus_stop(reachd->bus);
@@ -241,7 +262,8 @@ int main(int argc, char **argv)
                          reachd.arguments.overrides, reachd.arguments.n_overrides, error,
                          sizeof error) ||
              check_model_directory(&reachd.config, error, sizeof error) ||
-             run(&reachd, error, sizeof error);
+             (reachd.arguments.check_model ? check_model(&reachd.config, error, sizeof error)
+                                           : run(&reachd, error, sizeof error));
     if (status)
         log_error("%s", error);
     tear_down(&reachd);

@@ -1,77 +1,203 @@
 #include "model_store.h"
 
+#include "model_store_private.h"
+
 #include "common/log.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdatomic.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <zlib.h>
 
-#define PATH_MOST 512
+static const uint32_t noted_capacity = 1024; /* samples; a power of two */
 
-static const char magic[8] = "REACHMDL";
-static const uint32_t format_version = 1;
-
-/* Little-endian, as every machine that this runs on; the learner's own header says more. */
-struct header {
-    char magic[8];
-    uint32_t version;
-    uint32_t checksum; /* CRC-32 of the bytes that follow */
-    uint64_t size;     /* of the bytes that follow */
-};
-
-/* Who may touch the store: housekeeping in SAVE_ASKED, LOAD_ASKED and REFUSED, else the loop. */
-enum stage { FREE, SAVE_ASKED, SAVED, LOAD_ASKED, READ, REFUSED, FAILED };
-
-struct model_store {
-    const char *directory;
-    unsigned char *buffer;
-    size_t capacity;
-    size_t size;
-    int number;
-    char reason[128]; /* why the learner did not take what was read */
-    _Atomic int stage;
-};
-
-size_t model_store_memory(size_t learner_bytes)
+size_t model_store_memory(void)
 {
-    return arena_footprint(sizeof(struct model_store)) + arena_footprint(learner_bytes);
+    return arena_footprint(sizeof(struct model_store)) +
+           mailbox_memory(sizeof(struct noted), noted_capacity);
 }
 
-struct model_store *model_store_create(const char *directory, size_t learner_bytes,
-                                       struct arena *arena)
+static bool has_directory(const struct model_store *store)
+{
+    return store->settings.directory[0];
+}
+
+static int create_shadow(struct model_store *store, char *error, size_t error_size)
+{
+    size_t bytes = learner_memory(&store->settings.learner);
+
+    store->arena = arena_create(bytes + arena_footprint(bytes));
+    if (!store->arena) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    store->shadow = learner_create(&store->settings.learner, store->arena, error, error_size);
+    store->model.bytes = arena_alloc(store->arena, bytes);
+    store->model.capacity = bytes;
+    return store->shadow && store->model.bytes ? 0 : -1;
+}
+
+struct model_store *model_store_create(const struct model_store_settings *settings,
+                                       struct arena *arena, char *error, size_t error_size)
 {
     struct model_store *store = arena_alloc(arena, sizeof *store);
 
-    if (!store)
+    if (store)
+        store->noted = mailbox_create(arena, sizeof(struct noted), noted_capacity);
+    if (!store || !store->noted) {
+        snprintf(error, error_size, "out of memory");
         return NULL;
-    store->directory = directory;
-    store->capacity = learner_bytes;
-    store->buffer = arena_alloc(arena, learner_bytes);
-    return store->buffer ? store : NULL;
+    }
+    store->settings = *settings;
+    store->files = settings->files ? settings->files : &files_system;
+    store->directory_file = -1;
+    store->journal.file = -1;
+    store->generations = (struct generations){
+        .files = store->files, .directory = settings->directory, .keep = settings->keep};
+    if (has_directory(store) && create_shadow(store, error, error_size)) {
+        arena_destroy(store->arena);
+        return NULL;
+    }
+    return store;
+}
+
+static int take_directory(struct model_store *store, bool shared, char *error, size_t error_size)
+{
+    const char *directory = store->settings.directory;
+    int file = store->files->open(directory, O_RDONLY | O_DIRECTORY);
+
+    if (file < 0) {
+        snprintf(error, error_size, "model.directory: %s: %s", directory, strerror(errno));
+        return -1;
+    }
+    if (store->files->lock(file, shared)) {
+        snprintf(error, error_size, "model.directory: %s: %s", directory,
+                 errno == EWOULDBLOCK ? "another reachd keeps its model there; end it first, or "
+                                        "give this one a directory of its own"
+                                      : strerror(errno));
+        store->files->close(file);
+        return -1;
+    }
+    store->directory_file = file;
+    return 0;
+}
+
+/* The shadow as it is on disk; the learner's own errors name no file. */
+static int recover(struct model_store *store, struct recovery *recovery, char *error,
+                   size_t error_size)
+{
+    if (generations_recover(&store->generations, store->shadow, &store->model, recovery, error,
+                            error_size))
+        return -1;
+    model_capture(&store->model, store->shadow);
+    store->shadow_number = store->number = store->model.samples;
+    return 0;
+}
+
+static void describe(const struct model_store *store, const struct recovery *recovery, char *text,
+                     size_t text_size)
+{
+    if (!recovery->any)
+        snprintf(text, text_size, "%s: no model yet", store->settings.directory);
+    else
+        snprintf(text, text_size,
+                 "%s: a model of %llu samples, hash %016llx, %d experts; generation %lld and %llu "
+                 "samples from its journal",
+                 store->settings.directory, (unsigned long long)store->model.samples,
+                 (unsigned long long)store->model.hash,
+                 learner_get_statistics(store->shadow).experts, (long long)recovery->generation,
+                 (unsigned long long)recovery->replayed);
+}
+
+int model_store_open(struct model_store *store, struct learner *learner, char *error,
+                     size_t error_size)
+{
+    struct recovery recovery = {0};
+    char text[MODEL_REASON_MOST];
+
+    if (!has_directory(store))
+        return 0;
+    if (take_directory(store, false, error, error_size))
+        return -1;
+    if (!store->settings.automatic)
+        return 0;
+    if (recover(store, &recovery, error, error_size) ||
+        learner_load(learner, store->model.bytes, store->model.size, error, error_size))
+        return -1;
+    store->opened = true;
+    describe(store, &recovery, text, sizeof text);
+    log_info("%s", text);
+    return 0;
+}
+
+int model_store_check(const struct model_store_settings *settings, char *text, size_t text_size)
+{
+    struct arena *arena = arena_create(model_store_memory());
+    struct model_store *store = arena ? model_store_create(settings, arena, text, text_size) : NULL;
+    struct recovery recovery = {0};
+    int result = -1;
+
+    if (store && !has_directory(store))
+        snprintf(text, text_size, "model.directory is empty: there is nothing to check");
+    else if (store && take_directory(store, true, text, text_size) == 0)
+        result = recover(store, &recovery, text, text_size);
+    if (result == 0)
+        describe(store, &recovery, text, text_size);
+    if (store)
+        model_store_release(store);
+    arena_destroy(arena);
+    return result;
+}
+
+void model_store_release(struct model_store *store)
+{
+    if (store->directory_file >= 0)
+        store->files->close(store->directory_file);
+    store->directory_file = -1;
+    arena_destroy(store->arena);
+    store->arena = NULL;
+}
+
+void model_store_unlock_memory(struct model_store *store)
+{
+    if (store->arena && arena_lock(store->arena, false) == 0)
+        store->unlocked = true;
+}
+
+bool model_store_full(const struct model_store *store)
+{
+    return has_directory(store) && mailbox_full(store->noted);
+}
+
+bool model_store_note(struct model_store *store, const double *z, const double *x)
+{
+    const struct learner_config *learner = &store->settings.learner;
+    struct noted noted = {.epoch = store->epoch, .sample = {.number = store->number + 1}};
+
+    if (!has_directory(store))
+        return true;
+    memcpy(noted.sample.z, z, sizeof(double) * (size_t)learner->n_inputs);
+    memcpy(noted.sample.x, x, sizeof(double) * (size_t)learner->n_outputs);
+    if (!mailbox_put(store->noted, &noted))
+        return false;
+    store->number++;
+    return true;
 }
 
 static bool begin(struct model_store *store, int number)
 {
-    if (!store->directory[0] || atomic_load_explicit(&store->stage, memory_order_acquire) != FREE)
+    if (!has_directory(store) || model_store_stage(store) != FREE)
         return false;
-    store->number = number;
+    store->model_number = number;
     return true;
 }
 
-bool model_store_begin_save(struct model_store *store, const struct learner *learner, int number)
+bool model_store_begin_save(struct model_store *store, int number)
 {
     if (!begin(store, number))
         return false;
-    store->size = learner_save(learner, store->buffer, store->capacity);
-    if (store->size == 0)
-        return false;
-    atomic_store_explicit(&store->stage, SAVE_ASKED, memory_order_release);
+    store->save_at = store->number;
+    model_store_set_stage(store, SAVE_ASKED);
     return true;
 }
 
@@ -79,149 +205,41 @@ bool model_store_begin_load(struct model_store *store, int number)
 {
     if (!begin(store, number))
         return false;
-    atomic_store_explicit(&store->stage, LOAD_ASKED, memory_order_release);
+    model_store_set_stage(store, LOAD_ASKED);
     return true;
 }
 
-enum model_store_result model_store_poll(struct model_store *store, struct learner *learner)
+enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
 {
-    enum model_store_result result;
+    struct learner *old = *learner;
 
-    switch (atomic_load_explicit(&store->stage, memory_order_acquire)) {
-    case SAVED:
-        result = MODEL_STORE_DONE;
-        break;
+    switch (model_store_stage(store)) {
     case READ:
-        if (learner_load(learner, store->buffer, store->size, store->reason,
-                         sizeof store->reason)) { /* housekeeping may log, this thread may not */
-            atomic_store_explicit(&store->stage, REFUSED, memory_order_release);
-            return MODEL_STORE_NOTHING;
-        }
-        result = MODEL_STORE_DONE;
-        break;
+        *learner = store->shadow;
+        store->shadow = old;
+        store->epoch++;
+        store->number = store->model.samples;
+        model_store_set_stage(store, SWAPPED);
+        return MODEL_STORE_DONE;
+    case DONE:
+        model_store_set_stage(store, FREE);
+        return MODEL_STORE_DONE;
     case FAILED:
-        result = MODEL_STORE_FAILED;
-        break;
+        model_store_set_stage(store, FREE);
+        return MODEL_STORE_FAILED;
     default:
         return MODEL_STORE_NOTHING;
     }
-    atomic_store_explicit(&store->stage, FREE, memory_order_release);
-    return result;
 }
 
-static int write_all(int file, const void *bytes, size_t size)
+struct model_store_report model_store_report(const struct model_store *store)
 {
-    const unsigned char *from = bytes;
+    uint64_t stored = atomic_load_explicit(&store->stored, memory_order_acquire);
+    uint64_t of_this = stored - model_store_pack(store->epoch, 0);
 
-    while (size > 0) {
-        ssize_t written = write(file, from, size);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            return -1;
-        from += written;
-        size -= (size_t)written;
-    }
-    return 0;
-}
-
-static int sync_directory(const char *directory)
-{
-    int file = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    int result;
-
-    if (file < 0)
-        return -1;
-    result = fsync(file);
-    close(file);
-    return result;
-}
-
-static int write_model(const struct model_store *store, const char *path)
-{
-    struct header header = {.version = format_version, .size = store->size};
-    char aside[PATH_MOST + 8];
-    int file;
-    int failed;
-
-    memcpy(header.magic, magic, sizeof magic);
-    header.checksum = (uint32_t)crc32(0, store->buffer, (uInt)store->size);
-    snprintf(aside, sizeof aside, "%s.new", path);
-    file = open(aside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (file < 0)
-        return -1;
-    failed = write_all(file, &header, sizeof header) ||
-             write_all(file, store->buffer, store->size) || fsync(file);
-    failed = close(file) || failed;
-    return failed || rename(aside, path) || sync_directory(store->directory) ? -1 : 0;
-}
-
-static int read_all(int file, void *bytes, size_t size)
-{
-    unsigned char *to = bytes;
-
-    while (size > 0) {
-        ssize_t got = read(file, to, size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return -1;
-        to += got;
-        size -= (size_t)got;
-    }
-    return 0;
-}
-
-/* Reads and checks. Returns NULL, or what is wrong. */
-static const char *read_model(struct model_store *store, const char *path)
-{
-    struct header header;
-    struct stat status;
-    const char *wrong = NULL;
-    int file = open(path, O_RDONLY | O_CLOEXEC);
-
-    if (file < 0)
-        return strerror(errno);
-    if (fstat(file, &status) || read_all(file, &header, sizeof header) ||
-        memcmp(header.magic, magic, sizeof magic) != 0)
-        wrong = "not a model file";
-    else if (header.version != format_version)
-        wrong = "of another version";
-    else if (header.size > store->capacity)
-        wrong = "larger than this configuration can hold (learner.capacity)";
-    else if ((uint64_t)status.st_size != sizeof header + header.size ||
-             read_all(file, store->buffer, (size_t)header.size))
-        wrong = "cut short or too long";
-    else if (crc32(0, store->buffer, (uInt)header.size) != header.checksum)
-        wrong = "damaged: the checksum differs";
-    else
-        store->size = (size_t)header.size;
-    close(file);
-    return wrong;
-}
-
-void model_store_serve(struct model_store *store)
-{
-    int stage = atomic_load_explicit(&store->stage, memory_order_acquire);
-    char path[PATH_MOST];
-    const char *wrong = NULL;
-
-    if (stage != SAVE_ASKED && stage != LOAD_ASKED && stage != REFUSED)
-        return;
-    snprintf(path, sizeof path, "%s/model-%d.imle", store->directory, store->number);
-    if (stage == SAVE_ASKED && write_model(store, path))
-        wrong = strerror(errno);
-    else if (stage == LOAD_ASKED)
-        wrong = read_model(store, path);
-    else if (stage == REFUSED)
-        wrong = store->reason;
-    if (wrong)
-        log_error("%s: %s", path, wrong);
-    else
-        log_info("%s: %s", path, stage == SAVE_ASKED ? "saved" : "read");
-    if (wrong)
-        stage = FAILED;
-    else
-        stage = stage == SAVE_ASKED ? SAVED : READ;
-    atomic_store_explicit(&store->stage, stage, memory_order_release);
+    return (struct model_store_report){
+        .stored = of_this <= store->number ? (int64_t)of_this : 0,
+        .storing = atomic_load_explicit(&store->storing, memory_order_relaxed),
+        .waits = (int64_t)mailbox_refused(store->noted),
+    };
 }

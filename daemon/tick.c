@@ -20,8 +20,20 @@ size_t tick_memory(const struct config *config)
     struct learner_config learner = config_learner(config);
     size_t learner_bytes = learner_memory(&learner);
 
-    return arena_footprint(sizeof(struct tick)) + learner_bytes +
-           model_store_memory(learner_bytes) + training_memory(config->learner_queue);
+    return arena_footprint(sizeof(struct tick)) + learner_bytes + model_store_memory() +
+           training_memory(config->learner_queue);
+}
+
+struct model_store_settings tick_store_settings(const struct config *config)
+{
+    return (struct model_store_settings){
+        .directory = config->model_directory,
+        .automatic = config->model_automatic,
+        .snapshot_samples = config->model_snapshot,
+        .sync_us = (int64_t)(config->model_sync * 1e6),
+        .keep = config->model_keep,
+        .learner = config_learner(config),
+    };
 }
 
 struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
@@ -29,6 +41,7 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
 {
     struct learner_config learner = config_learner(config);
     const double scale[] = {config->scale_angle, config->scale_angle, config->scale_disparity};
+    const struct model_store_settings settings = tick_store_settings(config);
     struct tick *tick = arena_alloc(arena, sizeof *tick);
 
     if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
@@ -39,11 +52,9 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
         return NULL;
-    tick->store = model_store_create(config->model_directory, learner_memory(&learner), arena);
-    if (!tick->store) {
-        snprintf(error, error_size, "out of memory");
+    tick->store = model_store_create(&settings, arena, error, error_size);
+    if (!tick->store)
         return NULL;
-    }
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
     select_init(&tick->selection, config_arm_joints(config), VISUAL_DIMENSIONS, scale);
@@ -58,10 +69,23 @@ struct model_store *tick_model_store(struct tick *tick)
     return tick->store;
 }
 
+int tick_open_model(struct tick *tick, char *error, size_t error_size)
+{
+    return model_store_open(tick->store, tick->learner, error, error_size);
+}
+
+bool tick_awaits_store(const struct tick *tick)
+{
+    return training_oldest(&tick->training) && model_store_full(tick->store);
+}
+
 bool tick_learn(struct tick *tick)
 {
-    if (!training_learn_one(&tick->training, tick->learner))
+    const struct training_sample *sample = training_oldest(&tick->training);
+
+    if (!sample || !model_store_note(tick->store, sample->z, sample->x))
         return false;
+    training_learn_one(&tick->training, tick->learner);
     tick->learned_now++;
     return true;
 }

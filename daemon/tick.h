@@ -57,13 +57,23 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs);
 
-/* Learns one sample of those that wait. Returns false when none does. */
+/* Learns one sample of those that wait. Returns false when none does, or when the store has no room
+ * for it: learning then waits, control does not. */
 bool tick_learn(struct tick *tick);
+
+/* Whether a sample waits for the store's room. */
+bool tick_awaits_store(const struct tick *tick);
 
 /* Fills status and trace of the tick just decided. */
 void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs);
 
 /* The store that housekeeping must serve. */
 struct model_store *tick_model_store(struct tick *tick);
+
+/* Before the loop starts: goes on from the model on disk. Returns 0, or -1 with one line. */
+int tick_open_model(struct tick *tick, char *error, size_t error_size);
+
+/* The model.* options, for the store. */
+struct model_store_settings tick_store_settings(const struct config *config);
 
 #endif

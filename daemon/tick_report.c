@@ -1,3 +1,4 @@
+#include "model_file.h"
 #include "tick_private.h"
 
 #include <math.h>
@@ -74,8 +75,13 @@ static void report_model(const struct tick *tick, reach_status_t *status)
 {
     const struct selection *selection = &tick->selection;
     const double *value = select_value(selection);
+    struct model_store_report store = model_store_report(tick->store);
 
     status->samples = tick->training.learned;
+    status->model_samples = (int64_t)model_samples(tick->learner);
+    status->samples_stored = store.stored;
+    status->storing = store.storing;
+    status->store_waits = store.waits;
     status->experts = learner_get_statistics(tick->learner).experts;
     status->solutions = selection->prediction.n_solutions;
     status->solution = selection->solution;

@@ -35,9 +35,8 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
         tick->reset_requested = true;
         return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_SAVE:
-        return model_store_begin_save(tick->store, tick->learner, request->count)
-                   ? REACH_STATUS_T_PENDING
-                   : REACH_STATUS_T_REFUSED_STATE;
+        return model_store_begin_save(tick->store, request->count) ? REACH_STATUS_T_PENDING
+                                                                   : REACH_STATUS_T_REFUSED_STATE;
     case REACH_REQUEST_T_LOAD:
         /* The model must not change under a behaviour that steers by it. */
         tick->loading = may_start(tick) && model_store_begin_load(tick->store, request->count);
@@ -50,7 +49,7 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
                         struct control *control)
 {
-    enum model_store_result stored = model_store_poll(tick->store, tick->learner);
+    enum model_store_result stored = model_store_poll(tick->store, &tick->learner);
 
     if (stored != MODEL_STORE_NOTHING && tick->request_result == REACH_STATUS_T_PENDING)
         tick->request_result =

@@ -30,11 +30,16 @@ void training_add(struct training *training, const double *z, int n_inputs, cons
     training->count++;
 }
 
+const struct training_sample *training_oldest(const struct training *training)
+{
+    return training->count > 0 ? &training->samples[training->oldest] : NULL;
+}
+
 bool training_learn_one(struct training *training, struct learner *learner)
 {
-    struct training_sample *sample = &training->samples[training->oldest];
+    const struct training_sample *sample = training_oldest(training);
 
-    if (training->count == 0)
+    if (!sample)
         return false;
     learner_update(learner, sample->z, sample->x);
     training->oldest = (training->oldest + 1) % training->capacity;

@@ -34,6 +34,9 @@ int training_init(struct training *training, int capacity, struct arena *arena);
 void training_add(struct training *training, const double *z, int n_inputs, const double *x,
                   int n_outputs);
 
+/* The sample that is next; NULL when none waits. */
+const struct training_sample *training_oldest(const struct training *training);
+
 /* Hands the oldest sample to the learner. Returns false when none waits. */
 bool training_learn_one(struct training *training, struct learner *learner);
 

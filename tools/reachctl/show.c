@@ -56,6 +56,9 @@ void show_text(const reach_status_t *status, FILE *out)
     fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d; context %d of %d\n",
             (long long)status->samples, status->experts, status->solutions, status->solution,
             status->context, status->contexts);
+    fprintf(out, "disk       %lld of the model's %lld samples are stored%s\n",
+            (long long)status->samples_stored, (long long)status->model_samples,
+            status->storing ? "" : "; nothing is being stored");
     fprintf(out,
             "tick       %lld; %.0f us now, %.0f mean, %.0f p99.9, %.0f largest; wake-up %.0f\n",
             (long long)status->seq, status->compute_us, status->compute_mean_us,
@@ -90,6 +93,10 @@ static const struct field {
     FIELD(fixated, FIELD_INT8),
     FIELD(error_px, FIELD_DOUBLE),
     FIELD(samples, FIELD_INT64),
+    FIELD(model_samples, FIELD_INT64),
+    FIELD(samples_stored, FIELD_INT64),
+    FIELD(storing, FIELD_INT8),
+    FIELD(store_waits, FIELD_INT64),
     FIELD(experts, FIELD_INT32),
     FIELD(solutions, FIELD_INT32),
     FIELD(solution, FIELD_INT32),
