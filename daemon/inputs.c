@@ -38,9 +38,9 @@ static bool targets_ok(const reach_request_t *request)
         !(request->period > 0 && request->period <= period_most))
         return false;
     for (int i = 0; i < request->n_targets; i++)
-        if (!(fabs(request->u[i]) <= image_most) || !(fabs(request->v[i]) <= image_most) ||
-            !(fabs(request->disparity[i]) <= image_most))
-            return false;
+        for (int axis = 0; axis < 3; axis++)
+            if (!(fabs(request->target[i][axis]) <= image_most))
+                return false;
     return request->count == 0 || request->count == 1;
 }
 

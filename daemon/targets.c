@@ -1,6 +1,7 @@
 #include "targets.h"
 
 #include <reach_status_t.h>
+#include <string.h>
 
 void targets_start(struct behaviour *behaviour, const reach_request_t *request,
                    struct control *control)
@@ -9,11 +10,7 @@ void targets_start(struct behaviour *behaviour, const reach_request_t *request,
 
     (void)control;
     targets->n = request->n_targets;
-    for (int i = 0; i < targets->n; i++) {
-        targets->target[i][0] = request->u[i];
-        targets->target[i][1] = request->v[i];
-        targets->target[i][2] = request->disparity[i];
-    }
+    memcpy(targets->target, request->target, sizeof targets->target);
     targets->period = (int64_t)(request->period * 1e6);
     targets->go_to_centre = request->count == 1;
     behaviour->progress.total = targets->n;

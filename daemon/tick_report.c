@@ -49,7 +49,7 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
     anchor(tick, pair);
 }
 
-static double error_px(const struct tick *tick)
+static double error_norm(const struct tick *tick)
 {
     double sum = 0;
 
@@ -106,7 +106,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->request_result = tick->request_result;
     status->marker_seen = sight_seen(&tick->sight, now);
     status->fixated = sight_fixated(&tick->sight);
-    status->error_px = error_px(tick);
+    status->error = error_norm(tick);
     status->bad_inputs = tick->bad_inputs;
     status->gated = tick->safety.changed;
     report_behaviour(tick, status);
@@ -128,7 +128,7 @@ static void report_trace(const struct tick *tick, int64_t now, const struct tick
     trace->solutions = tick->selection.prediction.n_solutions;
     trace->solution = tick->selection.solution;
     trace->n_outputs = tick->selection.n_outputs;
-    memcpy(trace->x_visual, tick->sight.carried, sizeof trace->x_visual);
+    memcpy(trace->x_seen, tick->sight.carried, sizeof trace->x_seen);
     memcpy(trace->x_target, tick->target, sizeof trace->x_target);
     memcpy(trace->x_estimated, tick->selection.x_estimated, sizeof trace->x_estimated);
 }

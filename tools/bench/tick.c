@@ -70,9 +70,7 @@ static void ask_to_reach(struct bench *bench)
         .seq = ++bench->request_seq,
         .kind = REACH_REQUEST_T_REACH,
         .n_targets = 4,
-        .u = {-20, 20, 20, -20},
-        .v = {-20, -20, 20, 20},
-        .disparity = {20, 25, 30, 25},
+        .target = {{-20, -20, 20}, {20, -20, 25}, {20, 20, 30}, {-20, 20, 25}},
         .period = 2,
     };
 }

@@ -39,12 +39,11 @@ class Experiment:
 
     def star(self, name: str, targets: np.ndarray, period: float) -> None:
         """Reaches under a resting head, from the middle of the babbled range."""
-        columns = np.zeros((3, MAX_TARGETS))
-        columns[:, : len(targets)] = targets.T
-        u, v, disparity = (column.tolist() for column in columns)
+        rows = np.zeros((MAX_TARGETS, 3))
+        rows[: len(targets)] = targets
         self._behave(
             name, reach.request_t.REACH, learn=1, count=1, n_targets=len(targets),
-            u=u, v=v, disparity=disparity, period=period,
+            target=rows.tolist(), period=period,
         )  # fmt: skip
 
     def take_tool(self, tool: int) -> None:
@@ -95,8 +94,8 @@ class Experiment:
 
     def _describe(self, status: reach.status_t) -> str:
         text = f"{status.progress} of {status.progress_total}, {status.experts} experts"
-        if status.error_px > 0:  # there is a target
-            return f"{text}, error {status.error_px:.1f} px"
+        if status.error > 0:  # there is a target
+            return f"{text}, error {status.error:.1f} px"
         recent = [s for s in self._bus.samples if s.request_seq == status.request_seq]
         if recent := recent[-RECENT_SAMPLES:]:
             measured = metrics.to_people([s.x[:3] for s in recent])

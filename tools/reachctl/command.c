@@ -102,9 +102,9 @@ static int fill_reach(const struct context *context)
 
     request->period = period_or(context, reach_period);
     request->n_targets = 1;
-    return number(context, 0, -1000, 1000, &request->u[0]) ||
-                   number(context, 1, -1000, 1000, &request->v[0]) ||
-                   number(context, 2, -1000, 1000, &request->disparity[0])
+    return number(context, 0, -1000, 1000, &request->target[0][0]) ||
+                   number(context, 1, -1000, 1000, &request->target[0][1]) ||
+                   number(context, 2, -1000, 1000, &request->target[0][2])
                ? -1
                : 0;
 }
@@ -151,8 +151,8 @@ static const struct command daemon_commands[] = {
      "the head looks at targets (--file F: lines 'u v disparity'), the arm follows"},
     {"star", "", 0, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_star,
      "reach for 8 directions and back to the centre; --period S"},
-    {"reach", "U V D", 3, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_reach,
-     "bring the ball to this place in the right image and this disparity; px"},
+    {"reach", "A B C", 3, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_reach,
+     "bring the end-effector there: u, v, disparity in px, or x, y, z in m"},
     {"stop", "", 0, CALL_DAEMON, REACH_REQUEST_T_STOP, NULL, "end what it does"},
     {"save", "N", 1, CALL_DAEMON, REACH_REQUEST_T_SAVE, fill_model, "keep the model as number N"},
     {"load", "N", 1, CALL_DAEMON, REACH_REQUEST_T_LOAD, fill_model, "take model number N"},

@@ -45,12 +45,22 @@ const char *show_phase(const reach_status_t *status)
     return word(phases, COUNT(phases), status->phase);
 }
 
+double show_error(const reach_status_t *status)
+{
+    return status->space == REACH_STATUS_T_CARTESIAN ? 1e3 * status->error : status->error;
+}
+
+const char *show_error_unit(const reach_status_t *status)
+{
+    return status->space == REACH_STATUS_T_CARTESIAN ? "mm" : "px";
+}
+
 void show_text(const reach_status_t *status, FILE *out)
 {
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
             show_behaviour(status), show_phase(status));
-    fprintf(out, "progress   %d of %d, %d given up; error %.1f px\n", status->progress,
-            status->progress_total, status->skipped, status->error_px);
+    fprintf(out, "progress   %d of %d, %d given up; error %.1f %s\n", status->progress,
+            status->progress_total, status->skipped, show_error(status), show_error_unit(status));
     fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
             status->fixated ? ", fixated" : "");
     fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d; context %d of %d\n",
@@ -91,7 +101,8 @@ static const struct field {
     FIELD(skipped, FIELD_INT32),
     FIELD(marker_seen, FIELD_INT8),
     FIELD(fixated, FIELD_INT8),
-    FIELD(error_px, FIELD_DOUBLE),
+    FIELD(space, FIELD_INT8),
+    FIELD(error, FIELD_DOUBLE),
     FIELD(samples, FIELD_INT64),
     FIELD(model_samples, FIELD_INT64),
     FIELD(samples_stored, FIELD_INT64),
@@ -174,7 +185,8 @@ void show_progress(const reach_status_t *status, bool last)
 {
     if (!isatty(STDERR_FILENO))
         return;
-    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f px\033[K%s",
+    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f %s\033[K%s",
             show_behaviour(status), show_phase(status), status->progress, status->progress_total,
-            status->skipped, status->experts, status->error_px, last ? "\n" : "");
+            status->skipped, status->experts, show_error(status), show_error_unit(status),
+            last ? "\n" : "");
 }

@@ -20,6 +20,10 @@ const char *show_state(const reach_status_t *status);
 const char *show_behaviour(const reach_status_t *status);
 const char *show_phase(const reach_status_t *status);
 
+/* The error in people's units of the daemon's task space, px or mm. */
+double show_error(const reach_status_t *status);
+const char *show_error_unit(const reach_status_t *status);
+
 /* What a request_result means. */
 const char *show_result(int result);
 

@@ -5,22 +5,21 @@
 #include <stdio.h>
 #include <string.h>
 
-static const int max_targets = (int)(sizeof((reach_request_t *)NULL)->u / sizeof(double));
+static const int max_targets =
+    (int)(sizeof((reach_request_t *)NULL)->target / sizeof((reach_request_t *)NULL)->target[0]);
 
 void targets_star(reach_request_t *request)
 {
     static const double ends[8][2] = {{50, 0},  {50, 50},   {0, 50},  {-50, 50},
                                       {-50, 0}, {-50, -50}, {0, -50}, {50, -50}};
 
-    for (int i = 0; i < 8; i++) {
-        request->u[2 * i] = ends[i][0];
-        request->v[2 * i] = ends[i][1];
-    }
+    for (int i = 0; i < 8; i++)
+        memcpy(request->target[2 * i], ends[i], sizeof ends[i]);
     request->n_targets = 16;
 }
 
 /* Returns 1 for a target, 0 for a line without one, -1 for anything else. */
-static int parse_line(char *line, double *u, double *v, double *disparity)
+static int parse_line(char *line, double target[3])
 {
     char rest[2];
     int found;
@@ -28,8 +27,8 @@ static int parse_line(char *line, double *u, double *v, double *disparity)
     line[strcspn(line, "#\n")] = '\0';
     if (line[strspn(line, " \t\r")] == '\0')
         return 0;
-    found = sscanf(line, "%lf %lf %lf %1s", u, v, disparity, rest);
-    return found == 3 && isfinite(*u) && isfinite(*v) && isfinite(*disparity) ? 1 : -1;
+    found = sscanf(line, "%lf %lf %lf %1s", &target[0], &target[1], &target[2], rest);
+    return found == 3 && isfinite(target[0]) && isfinite(target[1]) && isfinite(target[2]) ? 1 : -1;
 }
 
 static int read_lines(FILE *file, const char *path, reach_request_t *request, char *error,
@@ -38,20 +37,16 @@ static int read_lines(FILE *file, const char *path, reach_request_t *request, ch
     char line[256];
 
     for (int number = 1; fgets(line, sizeof line, file); number++) {
-        double u;
-        double v;
-        double disparity;
-        int found = parse_line(line, &u, &v, &disparity);
+        double target[3];
+        int found = parse_line(line, target);
         if (found == 0)
             continue;
         if (found < 0 || request->n_targets == max_targets) {
             snprintf(error, error_size, "%s:%d: %s", path, number,
-                     found < 0 ? "'u v disparity' in pixels is wanted" : "at most 32 targets");
+                     found < 0 ? "three numbers, px or m, are wanted" : "at most 32 targets");
             return -1;
         }
-        request->u[request->n_targets] = u;
-        request->v[request->n_targets] = v;
-        request->disparity[request->n_targets++] = disparity;
+        memcpy(request->target[request->n_targets++], target, sizeof target);
     }
     if (request->n_targets == 0) {
         snprintf(error, error_size, "%s: holds no target", path);

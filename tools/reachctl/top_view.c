@@ -42,7 +42,7 @@ static void note_error(struct top *top)
         memmove(top->errors, top->errors + 1, sizeof top->errors - sizeof top->errors[0]);
     else
         top->n_errors++;
-    top->errors[top->n_errors - 1] = isfinite(top->status.error_px) ? top->status.error_px : 0;
+    top->errors[top->n_errors - 1] = isfinite(top->status.error) ? show_error(&top->status) : 0;
 }
 
 void top_settle(struct top *top, int64_t now)
@@ -106,8 +106,9 @@ static void draw_error(struct page *page, const struct top *top)
         most = fmax(most, top->errors[i]);
     for (int i = 0; i < top->n_errors; i++)
         curve[i] = most > 0 ? level[lround(top->errors[i] / most * (sizeof level - 2))] : level[0];
-    line(page, LOOK_PLAIN, "error      %.1f px; last minute, at most %.1f px: |%s|",
-         top->status.error_px, most, curve);
+    line(page, LOOK_PLAIN, "error      %.1f %s; last minute, at most %.1f %s: |%s|",
+         show_error(&top->status), show_error_unit(&top->status), most,
+         show_error_unit(&top->status), curve);
 }
 
 static void draw_status(struct page *page, const struct top *top)

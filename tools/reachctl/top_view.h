@@ -21,7 +21,7 @@ struct top {
     int64_t status_at, robot_at, command_at; /* when each came, us; 0 = never */
     double speed;               /* robot's seconds a second, in the last window; 0 = unknown */
     int64_t speed_from;         /* the robot's time when that window began, us */
-    int n_errors;               /* the newest TOP_HISTORY entries of error_px, a window each */
+    int n_errors;               /* the newest TOP_HISTORY entries of the error, a window each */
     double errors[TOP_HISTORY]; /* px, oldest first */
 };
 

@@ -149,11 +149,8 @@ static void star(double bound)
     const double v[] = {0, 0, 0, 50, -50, 50, -50, -50, 50};
     int reached = 0;
 
-    memcpy(request.u, u, sizeof u);
-    memcpy(request.v, v, sizeof v);
-    request.disparity[0] = 20;
-    for (int i = 1; i < 9; i++)
-        request.disparity[i] = 20;
+    for (int i = 0; i < 9; i++)
+        memcpy(request.target[i], (double[]){u[i], v[i], 20}, sizeof request.target[i]);
     ask(request);
     for (int i = 0; i < 9 * 250 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
         int done = world.outputs.status.progress;
@@ -238,10 +235,8 @@ START_TEST(the_arm_follows_the_head)
 
     begin();
     babble(120, true);
-    memcpy(request.u, u, sizeof u);
-    memcpy(request.v, v, sizeof v);
     for (int i = 0; i < 4; i++)
-        request.disparity[i] = 20;
+        memcpy(request.target[i], (double[]){u[i], v[i], 20}, sizeof request.target[i]);
     ask(request);
     for (int i = 0; i < 3000 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
         double error[3];
@@ -263,8 +258,7 @@ START_TEST(an_arm_whose_marker_is_hidden_holds)
     reach_request_t request = {.kind = REACH_REQUEST_T_REACH,
                                .n_targets = 1,
                                .period = 100,
-                               .u = {40},
-                               .disparity = {20},
+                               .target = {{40, 0, 20}},
                                .count = 1};
 
     begin();
@@ -300,8 +294,7 @@ static double early_speed(const char *smoothing)
     reach_request_t request = {.kind = REACH_REQUEST_T_REACH,
                                .n_targets = 1,
                                .period = 3,
-                               .u = {50},
-                               .disparity = {20},
+                               .target = {{50, 0, 20}},
                                .count = 1};
     double early, highest = 0;
 

@@ -80,9 +80,9 @@ START_TEST(a_bad_request_is_refused)
     request.n_targets = 33;
     ck_assert(!inputs_request_ok(&request));
     request.n_targets = 32;
-    request.disparity[31] = NAN;
+    request.target[31][2] = NAN;
     ck_assert(!inputs_request_ok(&request));
-    request.disparity[31] = 0;
+    request.target[31][2] = 0;
     request.period = NAN;
     ck_assert(!inputs_request_ok(&request));
     request = (reach_request_t){.kind = 99};

@@ -57,9 +57,8 @@ class Reachctl(unittest.TestCase):
         babble, star, single, save = daemon.requests
         self.assertEqual((babble.kind, babble.count, babble.seed, babble.learn), (1, 20, 9, 0))
         self.assertEqual((star.kind, star.count, star.n_targets, star.period), (3, 1, 16, 3.0))
-        self.assertEqual((star.u[2], star.v[2], star.u[3], star.v[3]), (50, 50, 0, 0))
-        self.assertEqual((single.n_targets, single.u[0], single.v[0], single.disparity[0]),
-                         (1, -50, 10, 2.5))  # fmt: skip
+        self.assertEqual((star.target[2], star.target[3]), ((50, 50, 0), (0, 0, 0)))
+        self.assertEqual((single.n_targets, single.target[0]), (1, (-50, 10, 2.5)))
         self.assertEqual((single.count, single.learn), (0, 1))
         self.assertEqual((save.kind, save.count), (4, 4))
 
@@ -93,7 +92,7 @@ class Reachctl(unittest.TestCase):
             path.write_text("10 20 0\n10 20\n")
             self.assertIn("targets:2:", self.refused("coordinate", "--file", path))
         request = daemon.requests[0]
-        self.assertEqual((request.n_targets, request.u[1], request.disparity[1]), (2, -5, 1.5))
+        self.assertEqual((request.n_targets, request.target[1]), (2, (-5, 5, 1.5)))
         self.assertEqual(request.period, 2.0)
 
 

@@ -78,7 +78,7 @@ START_TEST(a_frame_says_what_was_heard)
     unsigned char data[1024];
     int size = reach_robot_state_t_encode(data, 0, sizeof data, &robot);
 
-    status.error_px = 12.25;
+    status.error = 12.25;
     status.experts = 7;
     top_hear(&top, "ROBOT_STATE", data, (size_t)size, start);
     hear_status(&status, start);
@@ -93,12 +93,12 @@ END_TEST
 
 START_TEST(robot_time_is_compared_to_the_walls)
 {
-    reach_status_t status = {.utime = 1000000, .error_px = 4};
+    reach_status_t status = {.utime = 1000000, .error = 4};
 
     hear_status(&status, start);
     top_settle(&top, start + 1000000);
     status.utime += 3000000;
-    status.error_px = 8;
+    status.error = 8;
     hear_status(&status, start + 1500000);
     top_settle(&top, start + 2000000);
     assert_shows(start + 2000000, "3.0 times real time");
