@@ -66,6 +66,8 @@ static const struct option_row table[] = {
            "age of the robot state at which the robot is held still"),
     NUMBER("safety.state_suspend", state_suspend, "s", "0.1", 0.001, 60,
            "age of the robot state at which the behaviour is suspended"),
+    NUMBER("safety.loop_stall", loop_stall, "s", "0.1", 0.01, 10,
+           "standstill of the loop after which the watchdog stops the arm"),
     COUNT("safety.overruns_fault", overruns_fault, "10", 1, 100000,
           "late ticks in a row that are a fault"),
 

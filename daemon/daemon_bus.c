@@ -2,6 +2,7 @@
 
 #include "common/bus.h"
 #include "common/log.h"
+#include "realtime.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -36,6 +37,7 @@ struct daemon_bus {
     sem_t arrived; /* posted for every message that the loop may wait for */
     sem_t to_send; /* posted for every outgoing message */
     _Atomic bool ending;
+    _Atomic bool emergency;
     _Atomic int64_t malformed;
     struct outgoing sending; /* the sending thread's */
     struct outgoing filling; /* the loop thread's */
@@ -97,10 +99,13 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
     reach_request_t request;
 
     (void)channel;
-    if (DECODE(reach_request_t, message, &request))
-        deliver(bus, bus->requests, &request);
-    else
+    if (!DECODE(reach_request_t, message, &request)) {
         refuse(bus);
+        return;
+    }
+    if (request.kind == REACH_REQUEST_T_EMERGENCY)
+        daemon_bus_raise_emergency(bus);
+    deliver(bus, bus->requests, &request);
 }
 
 static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
@@ -176,15 +181,13 @@ static void *send(void *user)
     }
 }
 
-int daemon_bus_start(struct daemon_bus *bus, char *error, size_t error_size)
+int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size)
 {
-    int failed = pthread_create(&bus->receiver, NULL, receive, bus);
+    int priority = real_time ? REALTIME_PRIORITY_BUS : 0;
 
-    if (!failed)
-        failed = pthread_create(&bus->sender, NULL, send, bus);
-    if (failed)
-        snprintf(error, error_size, "cannot start the bus threads: %s", strerror(failed));
-    return failed ? -1 : 0;
+    if (realtime_thread(&bus->receiver, priority, receive, bus, error, error_size))
+        return -1;
+    return realtime_thread(&bus->sender, priority, send, bus, error, error_size);
 }
 
 void daemon_bus_stop(struct daemon_bus *bus)
@@ -253,6 +256,21 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
     bus->filling.kind = OUTGOING_TRACE;
     bus->filling.trace = *trace;
     hand_over(bus);
+}
+
+void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command)
+{
+    reach_robot_command_t_publish(bus->lcm, "ROBOT_COMMAND", command);
+}
+
+void daemon_bus_raise_emergency(struct daemon_bus *bus)
+{
+    atomic_store_explicit(&bus->emergency, true, memory_order_release);
+}
+
+bool daemon_bus_take_emergency(struct daemon_bus *bus)
+{
+    return atomic_exchange_explicit(&bus->emergency, false, memory_order_acq_rel);
 }
 
 int64_t daemon_bus_refused(const struct daemon_bus *bus)

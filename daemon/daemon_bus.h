@@ -25,8 +25,9 @@ size_t daemon_bus_memory(void);
 struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *error,
                                      size_t error_size);
 
-/* Starts the two threads. Returns 0, or -1 with one line in `error`. */
-int daemon_bus_start(struct daemon_bus *bus, char *error, size_t error_size);
+/* Starts the two threads, in real time with a priority over ordinary load. Returns 0, or -1 with
+ * one line in `error`. */
+int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size);
 
 /* Sends what still waits, then ends and joins the threads. */
 void daemon_bus_stop(struct daemon_bus *bus);
@@ -45,6 +46,14 @@ void daemon_bus_send_command(struct daemon_bus *bus, const reach_robot_command_t
 void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample);
 void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
                             const reach_trace_t *trace);
+
+/* For any thread but the loop's: sends a command at once, past the sending thread. */
+void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command);
+
+/* An emergency stop reaches the loop even when the mailbox of requests is full. */
+void daemon_bus_raise_emergency(struct daemon_bus *bus);
+/* For the loop thread: whether one was raised since it was last asked. */
+bool daemon_bus_take_emergency(struct daemon_bus *bus);
 
 /* Messages refused so far: malformed, or more than the mailboxes hold. */
 int64_t daemon_bus_refused(const struct daemon_bus *bus);

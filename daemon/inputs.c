@@ -49,6 +49,7 @@ bool inputs_request_ok(const reach_request_t *request)
     switch (request->kind) {
     case REACH_REQUEST_T_STOP:
     case REACH_REQUEST_T_RESET_FAULT:
+    case REACH_REQUEST_T_EMERGENCY:
         return true;
     case REACH_REQUEST_T_BABBLE:
         return request->count >= 1 && request->count <= count_most;

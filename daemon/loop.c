@@ -1,6 +1,7 @@
 #include "loop.h"
 
 #include "common/bus.h"
+#include "confine.h"
 #include "due_markers.h"
 #include "grid.h"
 #include "realtime.h"
@@ -22,6 +23,7 @@ struct loop {
     const struct config *config;
     struct tick *tick;
     struct daemon_bus *bus;
+    struct watchdog *watchdog;
     bool lockstep;
     bool real_time;
 
@@ -31,9 +33,9 @@ struct loop {
     bool any_state;
     struct due_markers due; /* lockstep */
 
-    struct timing compute;
-    double wakeup_us;
+    struct timing compute, wakeup;
     int64_t overruns, slips;
+    int64_t page_faults; /* before the first tick */
     int overruns_in_a_row;
 
     pthread_t thread;
@@ -42,6 +44,7 @@ struct loop {
     char start_error[200];
     _Atomic bool ending;
     _Atomic int64_t ticks;
+    _Atomic int state; /* state * 256 + fault, so that both are of one tick */
     _Atomic int waits;
 };
 
@@ -51,7 +54,8 @@ size_t loop_memory(void)
 }
 
 struct loop *loop_create(const struct config *config, struct tick *tick, struct daemon_bus *bus,
-                         bool lockstep, bool real_time, struct arena *arena)
+                         struct watchdog *watchdog, bool lockstep, bool real_time,
+                         struct arena *arena)
 {
     struct loop *loop = arena_alloc(arena, sizeof *loop);
 
@@ -60,6 +64,7 @@ struct loop *loop_create(const struct config *config, struct tick *tick, struct 
     loop->config = config;
     loop->tick = tick;
     loop->bus = bus;
+    loop->watchdog = watchdog;
     loop->lockstep = lockstep;
     loop->real_time = real_time;
     return loop;
@@ -68,6 +73,13 @@ struct loop *loop_create(const struct config *config, struct tick *tick, struct 
 int64_t loop_ticks(const struct loop *loop)
 {
     return atomic_load_explicit(&loop->ticks, memory_order_relaxed);
+}
+
+struct loop_state loop_state(const struct loop *loop)
+{
+    int both = atomic_load_explicit(&loop->state, memory_order_relaxed);
+
+    return (struct loop_state){.state = (int8_t)(both / 256), .fault = (int8_t)(both % 256)};
 }
 
 enum loop_wait loop_waits(const struct loop *loop)
@@ -97,9 +109,12 @@ static void take_requests(struct loop *loop)
 
 static void decide(struct loop *loop, int64_t now)
 {
+    loop->inputs.emergency = daemon_bus_take_emergency(loop->bus);
+    loop->inputs.braked = watchdog_take_braked(loop->watchdog);
     tick_decide(loop->tick, &loop->inputs, now, &loop->outputs);
     if (loop->outputs.has_command)
         daemon_bus_send_command(loop->bus, &loop->outputs.command);
+    watchdog_feed(loop->watchdog, loop->outputs.has_command ? &loop->outputs.command : NULL);
     if (loop->outputs.has_sample)
         daemon_bus_send_sample(loop->bus, &loop->outputs.sample);
 }
@@ -113,13 +128,26 @@ static void report(struct loop *loop, int64_t now)
     status->compute_mean_us = timing_mean(&loop->compute);
     status->compute_p999_us = timing_quantile(&loop->compute, 0.999);
     status->compute_max_us = loop->compute.max;
-    status->wakeup_us = loop->wakeup_us;
+    status->wakeup_us = loop->wakeup.last;
+    status->wakeup_mean_us = timing_mean(&loop->wakeup);
+    status->wakeup_p999_us = timing_quantile(&loop->wakeup, 0.999);
+    status->wakeup_max_us = loop->wakeup.max;
+    status->page_faults = realtime_page_faults() - loop->page_faults;
     status->overruns = loop->overruns;
     status->slips = loop->slips;
     status->staleness = loop->any_state ? loop->inputs.state_age : -1;
     status->bad_inputs += daemon_bus_refused(loop->bus);
     daemon_bus_send_report(loop->bus, status, &loop->outputs.trace);
+    atomic_store_explicit(&loop->state, status->state * 256 + status->fault, memory_order_relaxed);
     atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);
+}
+
+/* Lockstep: until a message comes, or for a while. */
+static void wait_for_message(struct loop *loop, enum loop_wait waits)
+{
+    if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
+        set_waits(loop, waits);
+    watchdog_feed(loop->watchdog, NULL);
 }
 
 /* Waits for the marker that is due with the state. Returns false when the loop is to end. */
@@ -135,8 +163,7 @@ static bool wait_for_marker(struct loop *loop, int64_t due)
             break;
         if (ending(loop))
             return false;
-        if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
-            set_waits(loop, LOOP_WAITS_FOR_MARKER);
+        wait_for_message(loop, LOOP_WAITS_FOR_MARKER);
     }
     set_waits(loop, LOOP_RUNS);
     inputs->n_markers = 0;
@@ -192,8 +219,7 @@ static void run_lockstep(struct loop *loop)
 
     while (!ending(loop)) {
         if (!mailbox_take(daemon_bus_states(loop->bus), &loop->received)) {
-            if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
-                set_waits(loop, LOOP_WAITS_FOR_STATE);
+            wait_for_message(loop, LOOP_WAITS_FOR_STATE);
             continue;
         }
         set_waits(loop, LOOP_RUNS);
@@ -243,27 +269,31 @@ static void sleep_until(int64_t ns)
         ;
 }
 
-static void account(struct loop *loop, int64_t woken, int64_t period)
+/* Late is what ends after the period that began at `due`, whether it woke late or took long. */
+static void account(struct loop *loop, int64_t due, int64_t period)
 {
-    bool late = monotonic_ns() - woken > period;
+    bool late = monotonic_ns() - due > period;
 
     loop->overruns += late;
     loop->overruns_in_a_row = late ? loop->overruns_in_a_row + 1 : 0;
 }
 
 /* One period of real time: the command first, then what learning the slack allows. */
-static void step_real_time(struct loop *loop, int64_t woken, int64_t period)
+static void step_real_time(struct loop *loop, int64_t due, int64_t period)
 {
+    int64_t woken = monotonic_ns();
     int64_t learn_until = woken + (int64_t)(learning_share * (double)period);
     int64_t now = bus_utime();
 
+    timing_add(&loop->wakeup, (double)(woken - due) * 1e-3);
     take_all(loop);
+    loop->inputs.robot_rests = (double)(woken - due) * 1e-9 > loop->config->loop_stall;
     decide(loop, now);
     timing_add(&loop->compute, (double)(monotonic_ns() - woken) * 1e-3);
     while (monotonic_ns() < learn_until && tick_learn(loop->tick))
         ;
     report(loop, now);
-    account(loop, woken, period);
+    account(loop, due, period);
 }
 
 static void run_real_time(struct loop *loop)
@@ -272,11 +302,9 @@ static void run_real_time(struct loop *loop)
     int64_t due = monotonic_ns() + period;
 
     while (!ending(loop)) {
-        int64_t skipped, woken;
+        int64_t skipped;
         sleep_until(due);
-        woken = monotonic_ns();
-        loop->wakeup_us = (double)(woken - due) * 1e-3;
-        step_real_time(loop, woken, period);
+        step_real_time(loop, due, period);
         due = grid_next(due, monotonic_ns(), period, &skipped);
         loop->slips += skipped;
     }
@@ -291,13 +319,25 @@ static void send_rest(struct loop *loop)
     daemon_bus_send_command(loop->bus, &loop->outputs.command);
 }
 
+/* From here on the thread asks the system for nothing that is not in confine.c. */
+static int enter(struct loop *loop)
+{
+    if (loop->real_time &&
+        realtime_enter(REALTIME_PRIORITY_LOOP, loop->start_error, sizeof loop->start_error))
+        return -1;
+    realtime_touch_stack();
+    if (confine_thread(loop->start_error, sizeof loop->start_error))
+        return -1;
+    loop->page_faults = realtime_page_faults();
+    return 0;
+}
+
 static void *run(void *user)
 {
     struct loop *loop = user;
 
     pthread_setname_np(pthread_self(), "reachd-loop");
-    if (loop->real_time)
-        loop->start_result = realtime_enter(loop->start_error, sizeof loop->start_error);
+    loop->start_result = enter(loop);
     sem_post(&loop->started);
     if (loop->start_result)
         return NULL;
@@ -311,19 +351,14 @@ static void *run(void *user)
 
 int loop_start(struct loop *loop, char *error, size_t error_size)
 {
-    int failed;
-
     if (sem_init(&loop->started, 0, 0)) {
         snprintf(error, error_size, "%s", strerror(errno));
         return -1;
     }
     if (loop->real_time && realtime_lock_memory(error, error_size))
         return -1;
-    failed = pthread_create(&loop->thread, NULL, run, loop);
-    if (failed) {
-        snprintf(error, error_size, "cannot start the loop: %s", strerror(failed));
+    if (realtime_thread(&loop->thread, 0, run, loop, error, error_size))
         return -1;
-    }
     while (sem_wait(&loop->started) && errno == EINTR)
         ;
     if (loop->start_result) {

@@ -5,6 +5,7 @@
 #include "config.h"
 #include "daemon_bus.h"
 #include "tick.h"
+#include "watchdog.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -22,17 +23,24 @@ size_t loop_memory(void);
 
 /* Everything is owned by the caller or the arena. Returns NULL when the arena is full. */
 struct loop *loop_create(const struct config *config, struct tick *tick, struct daemon_bus *bus,
-                         bool lockstep, bool real_time, struct arena *arena);
+                         struct watchdog *watchdog, bool lockstep, bool real_time,
+                         struct arena *arena);
 
-/* Starts the thread. With `real_time` it asks for SCHED_FIFO and locked memory, and fails when the
- * system refuses them. Returns 0, or -1 with one line in `error`. */
+/* Starts the thread, which confines itself to few system calls (confine.h). With `real_time` it
+ * asks for SCHED_FIFO and locked memory, and fails when the system refuses them. Returns 0, or -1
+ * with one line in `error`. */
 int loop_start(struct loop *loop, char *error, size_t error_size);
 
 /* Ends the thread after the tick it is in; a last command of zero velocity goes out. */
 void loop_stop(struct loop *loop);
 
-/* Ticks so far: a watchdog is fed only while this moves. */
 int64_t loop_ticks(const struct loop *loop);
+
+/* The supervisor's state after the newest tick, and why it is a fault: constants of status_t. */
+struct loop_state {
+    int8_t state, fault;
+};
+struct loop_state loop_state(const struct loop *loop);
 
 enum loop_wait loop_waits(const struct loop *loop);
 

@@ -4,7 +4,9 @@
 #include "daemon_bus.h"
 #include "house.h"
 #include "loop.h"
+#include "realtime.h"
 #include "tick.h"
+#include "watchdog.h"
 
 #include "common/bus.h"
 #include "common/log.h"
@@ -40,6 +42,7 @@ struct reachd {
     struct arena *arena;
     struct tick *tick;
     struct daemon_bus *bus;
+    struct watchdog *watchdog;
     struct loop *loop;
 };
 
@@ -142,11 +145,29 @@ static int parse(struct arguments *arguments, int argc, char **argv)
     return -1;
 }
 
+static bool is_real_time(const struct reachd *reachd)
+{
+    return !reachd->arguments.lockstep && !reachd->arguments.no_rt;
+}
+
+/* LCM starts a thread here, which inherits the priority: messages must not wait in it. */
+static int open_bus(struct reachd *reachd, char *error, size_t error_size)
+{
+    bool real_time = is_real_time(reachd);
+
+    realtime_limit_memory();
+    if (real_time && realtime_enter(REALTIME_PRIORITY_BUS, error, error_size))
+        return -1;
+    reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
+    if (!reachd->lcm)
+        return -1;
+    return real_time ? realtime_enter(0, error, error_size) : 0;
+}
+
 /* Another daemon on this bus would steer the same robot. */
 static int claim_bus(struct reachd *reachd, char *error, size_t error_size)
 {
-    reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
-    if (!reachd->lcm)
+    if (open_bus(reachd, error, error_size))
         return -1;
     switch (bus_claim_role(reachd->lcm, REACH_HELLO_T_DAEMON, claim_ms, &reachd->claim)) {
     case 0:
@@ -177,10 +198,10 @@ static int check_model_directory(const struct config *config, char *error, size_
 static int build(struct reachd *reachd, char *error, size_t error_size)
 {
     bool lockstep = reachd->arguments.lockstep;
-    bool real_time = !lockstep && !reachd->arguments.no_rt;
+    bool real_time = is_real_time(reachd);
 
-    reachd->arena =
-        arena_create(tick_memory(&reachd->config) + daemon_bus_memory() + loop_memory());
+    reachd->arena = arena_create(tick_memory(&reachd->config) + daemon_bus_memory() +
+                                 watchdog_memory() + loop_memory());
     if (!reachd->arena) {
         snprintf(error, error_size, "out of memory");
         return -1;
@@ -191,9 +212,10 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
     reachd->bus = daemon_bus_create(reachd->lcm, reachd->arena, error, error_size);
     if (!reachd->bus)
         return -1;
-    reachd->loop =
-        loop_create(&reachd->config, reachd->tick, reachd->bus, lockstep, real_time, reachd->arena);
-    if (!reachd->loop) {
+    reachd->watchdog = watchdog_create(&reachd->config, reachd->bus, !lockstep, reachd->arena);
+    reachd->loop = loop_create(&reachd->config, reachd->tick, reachd->bus, reachd->watchdog,
+                               lockstep, real_time, reachd->arena);
+    if (!reachd->watchdog || !reachd->loop) {
         snprintf(error, error_size, "out of memory");
         return -1;
     }
@@ -224,25 +246,41 @@ static int check_model(const struct config *config, char *error, size_t error_si
     return 0;
 }
 
-static int run(struct reachd *reachd, char *error, size_t error_size)
+/* Bus, loop, watchdog: all or none. */
+static int start_threads(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct house house = {0};
+    bool real_time = is_real_time(reachd);
 
-    house_take_signals();
-    if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size))
-        return -1;
-    if (daemon_bus_start(reachd->bus, error, error_size))
+    if (daemon_bus_start(reachd->bus, real_time, error, error_size))
         return -1;
     if (loop_start(reachd->loop, error, error_size)) {
         daemon_bus_stop(reachd->bus);
         return -1;
     }
+    if (watchdog_start(reachd->watchdog, real_time, error, error_size)) {
+        loop_stop(reachd->loop);
+        daemon_bus_stop(reachd->bus);
+        return -1;
+    }
+    return 0;
+}
+
+static int run(struct reachd *reachd, char *error, size_t error_size)
+{
+    struct house house = {0};
+
+    house_take_signals();
+    watchdog_take_signal();
+    if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
+        start_threads(reachd, error, error_size))
+        return -1;
     log_info("ready");
     house.loop = reachd->loop;
     house.store = tick_model_store(reachd->tick);
-    if (!reachd->arguments.lockstep && !reachd->arguments.no_rt)
+    if (is_real_time(reachd))
         model_store_unlock_memory(house.store);
     house_keep(&house);
+    watchdog_stop(reachd->watchdog);
     loop_stop(reachd->loop);
     daemon_bus_stop(reachd->bus);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));

@@ -1,13 +1,23 @@
 #include "realtime.h"
 
 #include <errno.h>
-#include <pthread.h>
+#include <malloc.h>
 #include <sched.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
-#define STACK_TO_TOUCH (256 * 1024)
+void realtime_limit_memory(void)
+{
+    pthread_attr_t attributes;
+
+    mallopt(M_ARENA_MAX, 1);
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, REALTIME_STACK);
+    pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+}
 
 int realtime_lock_memory(char *error, size_t error_size)
 {
@@ -19,28 +29,65 @@ int realtime_lock_memory(char *error, size_t error_size)
     return -1;
 }
 
-static void touch_stack(void)
+static int policy_of(int priority)
 {
-    unsigned char pages[STACK_TO_TOUCH];
+    return priority > 0 ? SCHED_FIFO : SCHED_OTHER;
+}
+
+static int refused(int priority, int failed, char *error, size_t error_size)
+{
+    if (priority > 0)
+        snprintf(error, error_size,
+                 "cannot run at real-time priority %d: %s; grant CAP_SYS_NICE or LimitRTPRIO, or "
+                 "use --no-rt",
+                 priority, failed ? strerror(failed) : "the system kept another policy");
+    else
+        snprintf(error, error_size, "cannot start a thread: %s", strerror(failed));
+    return -1;
+}
+
+int realtime_enter(int priority, char *error, size_t error_size)
+{
+    struct sched_param parameters = {.sched_priority = priority};
+    int policy = 0;
+    int failed = pthread_setschedparam(pthread_self(), policy_of(priority), &parameters);
+
+    if (!failed)
+        failed = pthread_getschedparam(pthread_self(), &policy, &parameters);
+    if (failed || policy != policy_of(priority) || parameters.sched_priority != priority)
+        return refused(priority, failed, error, error_size);
+    return 0;
+}
+
+int realtime_thread(pthread_t *thread, int priority, void *(*start)(void *), void *user,
+                    char *error, size_t error_size)
+{
+    struct sched_param parameters = {.sched_priority = priority};
+    pthread_attr_t attributes;
+    int failed;
+
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, REALTIME_STACK);
+    pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+    pthread_attr_setschedpolicy(&attributes, policy_of(priority));
+    pthread_attr_setschedparam(&attributes, &parameters);
+    failed = pthread_create(thread, &attributes, start, user);
+    pthread_attr_destroy(&attributes);
+    return failed ? refused(priority, failed, error, error_size) : 0;
+}
+
+void realtime_touch_stack(void)
+{
+    unsigned char pages[REALTIME_STACK_TOUCHED];
 
     explicit_bzero(pages, sizeof pages);
 }
 
-int realtime_enter(char *error, size_t error_size)
+int64_t realtime_page_faults(void)
 {
-    struct sched_param parameters = {.sched_priority = REALTIME_PRIORITY};
-    int policy = 0;
-    int failed = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+    struct rusage usage;
 
-    if (!failed)
-        failed = pthread_getschedparam(pthread_self(), &policy, &parameters);
-    if (failed || policy != SCHED_FIFO || parameters.sched_priority != REALTIME_PRIORITY) {
-        snprintf(error, error_size,
-                 "cannot run at real-time priority %d: %s; grant CAP_SYS_NICE or LimitRTPRIO, or "
-                 "use --no-rt",
-                 REALTIME_PRIORITY, failed ? strerror(failed) : "the system kept another policy");
-        return -1;
-    }
-    touch_stack();
-    return 0;
+    if (getrusage(RUSAGE_THREAD, &usage))
+        return 0;
+    return usage.ru_minflt + usage.ru_majflt;
 }

@@ -40,3 +40,30 @@ bool safety_gate(struct safety *safety, const double *q, double *velocity)
     safety->changed += changed;
     return changed;
 }
+
+void safety_brake(const struct config *config, double *velocity)
+{
+    for (int i = 0; i < config_joints(config); i++) {
+        double step = config_joint_limits(config, i).safety_acceleration * config->period;
+        velocity[i] = copysign(fmax(fabs(velocity[i]) - step, 0), velocity[i]);
+    }
+}
+
+bool safety_at_rest(const double *velocity)
+{
+    for (int i = 0; i < MAX_JOINTS; i++)
+        if (velocity[i] != 0)
+            return false;
+    return true;
+}
+
+void safety_was_braked(struct safety *safety, int braking_commands)
+{
+    for (int i = 0; i < braking_commands && !safety_at_rest(safety->previous); i++)
+        safety_brake(safety->config, safety->previous);
+}
+
+void safety_rests(struct safety *safety)
+{
+    memset(safety->previous, 0, sizeof safety->previous);
+}

@@ -24,4 +24,16 @@ void safety_init(struct safety *safety, const struct config *config);
  * motion.slow_down times the distance to it. Returns true when something was changed. */
 bool safety_gate(struct safety *safety, const double *q, double *velocity);
 
+/* What brakes without the gate: each velocity nearer to zero by as much as the greatest
+ * acceleration allows in a period. */
+void safety_brake(const struct config *config, double *velocity);
+
+bool safety_at_rest(const double *velocity);
+
+/* Others sent `braking_commands` of safety_brake after the last command that passed here. */
+void safety_was_braked(struct safety *safety, int braking_commands);
+
+/* No command has gone out for so long that the robot has stopped by itself. */
+void safety_rests(struct safety *safety);
+
 #endif

@@ -25,6 +25,8 @@ static const struct {
     uint32_t clear; /* conditions that must not */
     enum supervisor_state next;
 } transitions[] = {
+    {ANY_STATE, CONDITION_EMERGENCY, 0, SUPERVISOR_FAULT},
+    {ANY_STATE, CONDITION_STALLED, 0, SUPERVISOR_FAULT},
     {FROM(SUPERVISOR_FAULT), CONDITION_RESET_REQUESTED, 0, SUPERVISOR_WAITING},
     {FROM(SUPERVISOR_FAULT), 0, 0, SUPERVISOR_FAULT},
     {ANY_STATE, CONDITION_OVERRUNNING, 0, SUPERVISOR_FAULT},
@@ -47,6 +49,17 @@ enum supervisor_state supervisor_next(enum supervisor_state state, uint32_t cond
             (conditions & transitions[i].clear) == 0)
             return transitions[i].next;
     return state;
+}
+
+int8_t supervisor_fault(enum supervisor_state state, uint32_t conditions, int8_t fault)
+{
+    if (state != SUPERVISOR_FAULT)
+        return REACH_STATUS_T_FAULT_NONE;
+    if (conditions & CONDITION_EMERGENCY)
+        return REACH_STATUS_T_FAULT_EMERGENCY;
+    if (conditions & CONDITION_STALLED)
+        return REACH_STATUS_T_FAULT_STALL;
+    return fault == REACH_STATUS_T_FAULT_NONE ? REACH_STATUS_T_FAULT_OVERRUNS : fault;
 }
 
 const char *supervisor_name(enum supervisor_state state)

@@ -158,6 +158,10 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
         set |= CONDITION_BUSY;
     if (inputs->overrunning)
         set |= CONDITION_OVERRUNNING;
+    if (inputs->emergency || tick->emergency_requested)
+        set |= CONDITION_EMERGENCY;
+    if (inputs->braked > 0)
+        set |= CONDITION_STALLED;
     if (tick->reset_requested)
         set |= CONDITION_RESET_REQUESTED;
     return set;
@@ -165,8 +169,12 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
 static void supervise(struct tick *tick, const struct tick_inputs *inputs)
 {
-    tick->state = supervisor_next(tick->state, conditions(tick, inputs));
+    uint32_t set = conditions(tick, inputs);
+
+    tick->state = supervisor_next(tick->state, set);
+    tick->fault = supervisor_fault(tick->state, set, tick->fault);
     tick->reset_requested = false;
+    tick->emergency_requested = false;
     /* A fault ends the work: what was wanted before it may no longer be. */
     if (tick->state == SUPERVISOR_FAULT)
         tick->behaviour.ops = NULL;
@@ -219,6 +227,10 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
 
     tick->seq++;
     tick->learned_now = 0;
+    if (inputs->braked > 0)
+        safety_was_braked(&tick->safety, inputs->braked);
+    else if (inputs->robot_rests)
+        safety_rests(&tick->safety);
     outputs->has_sample = false;
     take_state(tick, inputs);
     take_markers(tick, inputs);

@@ -32,6 +32,9 @@ struct tick_inputs {
     int n_requests;
     reach_request_t request[TICK_MAX_REQUESTS];
     bool overrunning; /* the loop was late too often */
+    bool emergency;   /* somebody wants the arm stopped at once */
+    int braked;       /* braking commands that the watchdog sent since the last tick */
+    bool robot_rests; /* no command went out for so long that the robot stopped by itself */
 };
 
 struct tick_outputs {

@@ -30,7 +30,9 @@ struct tick {
 
     enum supervisor_state state;
     bool state_known;
+    int8_t fault; /* constants of status_t */
     bool reset_requested;
+    bool emergency_requested;
     bool loading;         /* the request that is pending replaces the model */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */

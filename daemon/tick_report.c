@@ -102,6 +102,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->seq = tick->seq;
     status->state_seq = tick->state_seq;
     status->state = (int8_t)tick->state;
+    status->fault = tick->fault;
     status->request_seq = tick->request_seq;
     status->request_result = tick->request_result;
     status->marker_seen = sight_seen(&tick->sight, now);

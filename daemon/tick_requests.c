@@ -34,6 +34,9 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
     case REACH_REQUEST_T_RESET_FAULT:
         tick->reset_requested = true;
         return REACH_STATUS_T_ACCEPTED;
+    case REACH_REQUEST_T_EMERGENCY:
+        tick->emergency_requested = true;
+        return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_SAVE:
         return model_store_begin_save(tick->store, request->count) ? REACH_STATUS_T_PENDING
                                                                    : REACH_STATUS_T_REFUSED_STATE;

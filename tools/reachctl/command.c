@@ -154,6 +154,8 @@ static const struct command daemon_commands[] = {
     {"reach", "A B C", 3, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_reach,
      "bring the end-effector there: u, v, disparity in px, or x, y, z in m"},
     {"stop", "", 0, CALL_DAEMON, REACH_REQUEST_T_STOP, NULL, "end what it does"},
+    {"emergency", "", 0, CALL_DAEMON, REACH_REQUEST_T_EMERGENCY, NULL,
+     "stop the arm at once; a fault until reset-fault"},
     {"save", "N", 1, CALL_DAEMON, REACH_REQUEST_T_SAVE, fill_model, "keep the model as number N"},
     {"load", "N", 1, CALL_DAEMON, REACH_REQUEST_T_LOAD, fill_model, "take model number N"},
     {"reset-fault", "", 0, CALL_DAEMON, REACH_REQUEST_T_RESET_FAULT, NULL, "leave the fault state"},

@@ -142,6 +142,92 @@ START_TEST(a_fault_needs_a_reset)
 }
 END_TEST
 
+static int fast; /* a joint that is at speed */
+
+static void babble_at_speed(void)
+{
+    begin();
+    step(true);
+    ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3, .seed = 5});
+    for (int i = 0; i < 200; i++) {
+        step(true);
+        for (fast = 0; fast < 4; fast++)
+            if (fabs(outputs.command.velocity[fast]) > 0.5)
+                return;
+    }
+    ck_abort_msg("no joint is fast");
+}
+
+/* Rest in as few ticks as the gate's acceleration allows, from the very tick on. */
+static void assert_brakes_at_once(void)
+{
+    double before = outputs.command.velocity[fast];
+    double decrease = config.safety_arm_acceleration * config.period;
+
+    step(true);
+    while (before != 0) {
+        ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_FAULT);
+        ck_assert_double_eq_tol(fabs(outputs.command.velocity[fast]),
+                                fmax(fabs(before) - decrease, 0), 1e-9);
+        before = outputs.command.velocity[fast];
+        step(true);
+    }
+    ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_NONE);
+}
+
+START_TEST(an_emergency_stops_the_arm_within_the_tick)
+{
+    for (int by_message = 0; by_message < 2; by_message++) {
+        babble_at_speed();
+        if (by_message)
+            inputs.request[inputs.n_requests++] =
+                (reach_request_t){.kind = REACH_REQUEST_T_EMERGENCY, .seq = ++seq};
+        else
+            inputs.emergency = true;
+        assert_brakes_at_once();
+        inputs.emergency = false;
+        step(true);
+        ck_assert_int_eq(outputs.status.fault, REACH_STATUS_T_FAULT_EMERGENCY);
+        ask((reach_request_t){.kind = REACH_REQUEST_T_RESET_FAULT});
+        step(true);
+        ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_IDLE);
+        ck_assert_int_eq(outputs.status.fault, REACH_STATUS_T_FAULT_NONE);
+        arena_destroy(arena);
+    }
+}
+END_TEST
+
+/* The loop stood still, the watchdog sent two braking commands: the loop goes on from those. */
+START_TEST(the_loop_goes_on_where_the_watchdog_came_to)
+{
+    double decrease, before;
+
+    babble_at_speed();
+    decrease = config.safety_arm_acceleration * config.period;
+    before = fabs(outputs.command.velocity[fast]);
+    inputs.braked = 2;
+    step(true);
+    inputs.braked = 0;
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_FAULT);
+    ck_assert_int_eq(outputs.status.fault, REACH_STATUS_T_FAULT_STALL);
+    ck_assert_double_eq_tol(fabs(outputs.command.velocity[fast]), fmax(before - 3 * decrease, 0),
+                            1e-9);
+    arena_destroy(arena);
+}
+END_TEST
+
+/* The robot has stopped by itself while nobody commanded it: it is started like one at rest. */
+START_TEST(after_a_long_silence_the_arm_starts_from_rest)
+{
+    babble_at_speed();
+    inputs.robot_rests = true;
+    step(true);
+    ck_assert_double_le(fabs(outputs.command.velocity[fast]),
+                        config.safety_arm_acceleration * config.period + 1e-12);
+    arena_destroy(arena);
+}
+END_TEST
+
 START_TEST(a_state_that_is_not_a_number_is_dropped)
 {
     begin();
@@ -206,6 +292,9 @@ int main(void)
         a_repeated_request_is_carried_out_once,
         a_stale_state_stops_the_arm_and_a_fresh_one_resumes,
         a_fault_needs_a_reset,
+        an_emergency_stops_the_arm_within_the_tick,
+        the_loop_goes_on_where_the_watchdog_came_to,
+        after_a_long_silence_the_arm_starts_from_rest,
         a_state_that_is_not_a_number_is_dropped,
         nonsense_moves_nothing_beyond_its_limits,
     };
