@@ -178,8 +178,10 @@ static void await_store(struct loop *loop)
 {
     const struct timespec moment = {.tv_nsec = 1000000};
 
-    while (tick_awaits_store(loop->tick) && !ending(loop))
+    while (tick_awaits_store(loop->tick) && !ending(loop)) {
         nanosleep(&moment, NULL);
+        watchdog_feed(loop->watchdog, NULL);
+    }
 }
 
 static void learn_quota(struct loop *loop)
