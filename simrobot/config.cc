@@ -46,6 +46,10 @@ const struct option_row robot_rows[] = {
      "standard deviation (gaussian) or half width (uniform) of a position reading", nullptr},
     {"encoder.velocity_noise", OPTION_NUMBER, AT(encoder_velocity_noise), "deg/s", "0.1", 0, 50,
      "the same for a velocity reading", nullptr},
+    {"effector.published", OPTION_BOOL, AT(effector_published), nullptr, "false", 0, 0,
+     "END_EFFECTOR with every state: the ball's centre in the frame of the URDF's base", nullptr},
+    {"effector.noise", OPTION_NUMBER, AT(effector_noise), "m", "0", 0, 0.1,
+     "standard deviation of each of its coordinates", nullptr},
     {"ball.radius", OPTION_NUMBER, AT(ball_radius), "m", "0.02", 0.003, 0.2, "of the marker",
      nullptr},
     {"ball.mass", OPTION_NUMBER, AT(ball_mass), "kg", "0.01", 0.001, 1, "of the marker", nullptr},
@@ -74,6 +78,8 @@ const struct option_row robot_rows[] = {
      "of the slowest wander of the light", nullptr},
     {"light.flicker", OPTION_NUMBER, AT(light_flicker), nullptr, "0.02", 0, 1,
      "share by which the lamps change from image to image", nullptr},
+    {"physics.step", OPTION_INT, AT(physics_step), "ms", "1", 1, 20,
+     "of the integration, a whole part of the 20 ms period; 1 for robots with eyes", nullptr},
     {"lockstep.resend", OPTION_NUMBER, AT(lockstep_resend), "s", "0.5", 0.01, 60,
      "an unanswered state is sent again after this (wall clock)", nullptr},
     {"lockstep.timeout", OPTION_NUMBER, AT(lockstep_timeout), "s", "10", 0.1, 3600,
@@ -90,6 +96,10 @@ const struct option_row tool_rows[] = {
     {"mass", OPTION_NUMBER, TOOL(mass), "kg", "0.043", 0.005, 2, "without the ball", nullptr},
     {"direction", OPTION_LIST, TOOL(direction), nullptr, "[0, 1, 0]", -1, 1,
      "where it points, in the frame of robot.hand_link", nullptr},
+    {"foot", OPTION_NUMBER, TOOL(foot), "m", "0", 0, 1,
+     "stick: length of a second arm at its end, as an L has; 0 = straight", nullptr},
+    {"foot_direction", OPTION_LIST, TOOL(foot_direction), nullptr, "[0, 0, 1]", -1, 1,
+     "where that points, in the frame of robot.hand_link", nullptr},
     {"rigidity", OPTION_NUMBER, TOOL(rigidity), "N m2", "0.08", 0.005, 100,
      "tube: bending stiffness E I; sets droop and frequency", nullptr},
     {"damping", OPTION_NUMBER, TOOL(damping), "s", "0.03", 0, 1,
@@ -118,11 +128,21 @@ const struct option_row *table()
     return rows.data();
 }
 
-bool has_three(const struct option_list &list, const char *name, std::string *error)
+bool has_three(const struct option_list &list, const std::string &name, std::string *error)
 {
     if (list.n == 3)
         return true;
-    *error = std::string(name) + ": three numbers are wanted, not " + std::to_string(list.n);
+    *error = name + ": three numbers are wanted, not " + std::to_string(list.n);
+    return false;
+}
+
+bool is_direction(const struct option_list &list, const std::string &name, std::string *error)
+{
+    if (!has_three(list, name, error))
+        return false;
+    if (std::hypot(list.value[0], list.value[1], list.value[2]) >= 1e-3)
+        return true;
+    *error = name + ": must not be zero";
     return false;
 }
 
@@ -134,14 +154,14 @@ bool check(const Config &config, std::string *error)
     for (int i = 0; i < max_tools; i++) {
         const ToolConfig &tool = config.tools[i];
         std::string name = "tool" + std::to_string(i + 1);
-        if (!has_three(tool.direction, (name + ".direction").c_str(), error) ||
-            !has_three(tool.colour, (name + ".colour").c_str(), error))
+        if (!is_direction(tool.direction, name + ".direction", error) ||
+            !is_direction(tool.foot_direction, name + ".foot_direction", error) ||
+            !has_three(tool.colour, name + ".colour", error))
             return false;
-        if (std::hypot(tool.direction.value[0], tool.direction.value[1], tool.direction.value[2]) <
-            1e-3) {
-            *error = name + ".direction: must not be zero";
-            return false;
-        }
+    }
+    if (20 % config.physics_step != 0 || (config.physics_step != 1 && config.left_eye[0])) {
+        *error = "physics.step: a divisor of 20 ms is wanted, and 1 ms where there are eyes";
+        return false;
     }
     return true;
 }

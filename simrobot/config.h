@@ -24,9 +24,11 @@ struct ToolConfig {
     double radius;                /* m */
     double mass;                  /* kg, without the ball */
     struct option_list direction; /* in the hand's frame; need not be of length 1 */
-    double rigidity;              /* tube: bending stiffness E I, N m^2 */
-    double damping;               /* tube: bending loss as a time, c = damping * k, s */
-    struct option_list colour;    /* red, green, blue, 0 .. 1 */
+    double foot;                  /* stick: length of a second arm at its end, m; 0 = straight */
+    struct option_list foot_direction; /* in the hand's frame */
+    double rigidity;                   /* tube: bending stiffness E I, N m^2 */
+    double damping;                    /* tube: bending loss as a time, c = damping * k, s */
+    struct option_list colour;         /* red, green, blue, 0 .. 1 */
 };
 
 struct Config {
@@ -47,6 +49,9 @@ struct Config {
     double encoder_noise;
     double encoder_velocity_noise;
 
+    bool effector_published;
+    double effector_noise;
+
     double ball_radius;
     double ball_mass;
     struct option_list ball_colour;
@@ -65,6 +70,8 @@ struct Config {
     double light_drift;
     double light_period;
     double light_flicker;
+
+    int physics_step; /* ms */
 
     double lockstep_resend;
     double lockstep_timeout;

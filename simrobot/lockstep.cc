@@ -32,7 +32,7 @@ public:
             session_.publish_state();
             if (!wait_for_command())
                 break;
-            for (int i = 0; i < period_steps; i++)
+            for (int i = 0; i < session_.steps_in_period(); i++)
                 session_.step(0);
         }
         return !failed_;

@@ -81,7 +81,7 @@ bool run(const sim::CommandLine &line, const sim::Config &config, sim::Simulatio
     bool good = line.lockstep ? sim::lockstep_run(config, session, *bus, stopping, error)
                               : sim::realtime_run(config, session, *bus, stopping, error);
     log_info("ended after %.3f s of the world's time, %lld messages refused",
-             static_cast<double>(simulation.steps()) * sim::physics_step,
+             static_cast<double>(simulation.elapsed()) * 1e-6,
              static_cast<long long>(bus->refused()));
     return good;
 }

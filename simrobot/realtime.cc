@@ -87,10 +87,11 @@ private:
 
     void run_period()
     {
-        for (int i = 0; i < period_steps; i++) {
+        for (int i = 0; i < session_.steps_in_period(); i++) {
             grid_steps_++;
-            int64_t at = grid_start_ +
-                         std::llround(static_cast<double>(grid_steps_ * step_us) / grid_speed_);
+            int64_t at =
+                grid_start_ +
+                std::llround(static_cast<double>(grid_steps_ * session_.step_us()) / grid_speed_);
             int64_t now = bus_monotonic_us();
             if (now - at > largest_lag_us)
                 return catch_up(now - at);

@@ -6,7 +6,8 @@
 namespace sim
 {
 
-Robot::Robot(World &world, const Rig &rig, const Config &config) : rig_(rig)
+Robot::Robot(World &world, const Rig &rig, const Config &config)
+    : rig_(rig), step_(world.step_length())
 {
     size_t n = rig.description.segments.size();
 
@@ -73,7 +74,7 @@ void Robot::command(const std::vector<double> &velocities)
 void Robot::drive_motors()
 {
     for (size_t i = 1; i < motors_.size(); i++) {
-        double most = motors_[i].acceleration * physics_step;
+        double most = motors_[i].acceleration * step_;
         motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
         dJointSetHingeParam(hinges_[i], dParamVel, motors_[i].speed);
     }

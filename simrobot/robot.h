@@ -48,6 +48,7 @@ private:
     void add_segment(World &world, const Config &config, size_t index);
 
     const Rig &rig_;
+    double step_;                 /* of physics, s */
     std::vector<dBodyID> bodies_; /* one a segment, owned by the world */
     std::vector<dJointID> hinges_;
     std::vector<Motor> motors_;

@@ -12,7 +12,7 @@ namespace sim
 Session::Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
                  const ClockControl &control, bool send_truth)
     : simulation_(simulation), bus_(bus), eyes_(eyes), control_(control), send_truth_(send_truth),
-      exposures_(std::llround(config.latency * 1e6))
+      send_effector_(config.effector_published), exposures_(std::llround(config.latency * 1e6))
 {
 }
 
@@ -77,10 +77,24 @@ void Session::handle_requests()
         publish_truth(false, state_.seq);
 }
 
+/* Out before the state that it is due with, so that who waits for the state has it. */
+void Session::measure_effector()
+{
+    Eigen::Vector3d position = simulation_.measure_effector();
+
+    effector_.utime = now();
+    effector_.seq++;
+    std::copy(position.data(), position.data() + 3, effector_.position);
+    bus_.publish_effector(effector_);
+    state_.effector_due = effector_.utime;
+}
+
 void Session::publish_state()
 {
     Reading reading = simulation_.read_encoders();
 
+    if (send_effector_)
+        measure_effector();
     state_.utime = now();
     state_.seq++;
     state_.vision_due = eyes_ ? exposures_.due(state_.utime) : 0;
@@ -94,6 +108,8 @@ void Session::publish_state()
 
 void Session::resend_state()
 {
+    if (send_effector_)
+        bus_.publish_effector(effector_);
     bus_.publish_state(state_);
     if (eyes_ && state_.vision_due)
         eyes_->publish_again(state_.vision_due);

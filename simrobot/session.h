@@ -12,10 +12,6 @@ namespace sim
 
 class EyeThread;
 
-/* The control period in physics steps. */
-inline constexpr int period_steps = 20;
-inline constexpr int64_t step_us = 1000;
-
 /* What the experimenter has asked of the clock. */
 struct ClockControl {
     bool lockstep = false;
@@ -35,13 +31,13 @@ public:
     /* utime of the world's present instant. */
     int64_t now() const
     {
-        return start_ + simulation_.steps() * step_us;
+        return start_ + simulation_.elapsed();
     }
 
     /* Sets the utime of the present instant: at the start, and when real time was lost. */
     void set_now(int64_t utime)
     {
-        start_ = utime - simulation_.steps() * step_us;
+        start_ = utime - simulation_.elapsed();
     }
 
     /* Whether no state may go out now: paused, or as far as the experimenter allowed. */
@@ -59,10 +55,21 @@ public:
         return control_;
     }
 
-    /* Reads the encoders and publishes the state of this instant, with its truth. */
+    /* Physics steps in a control period, and their length in us. */
+    int steps_in_period() const
+    {
+        return simulation_.steps_in_period();
+    }
+    int64_t step_us() const
+    {
+        return simulation_.step_us();
+    }
+
+    /* Reads the encoders and publishes the state of this instant, with its truth. Before it the
+     * measured end-effector, for robots that have this sense. */
     void publish_state();
 
-    /* Publishes the newest state again, and the image pair that its tick waits for. */
+    /* Publishes the newest state again, and what its tick waits for: image pair, end-effector. */
     void resend_state();
     int64_t state_seq() const
     {
@@ -82,6 +89,7 @@ private:
     void carry_out(const reach_sim_request_t &request);
     std::string refuse_reason(const reach_sim_request_t &request) const;
     void expose(int64_t release);
+    void measure_effector();
     void publish_truth(bool exposure, int64_t seq);
 
     Simulation &simulation_;
@@ -89,10 +97,12 @@ private:
     EyeThread *eyes_;
     ClockControl control_;
     bool send_truth_;
+    bool send_effector_;
     Exposures exposures_;
     int64_t start_ = 0;
     int64_t request_seq_ = 0;
     reach_robot_state_t state_ = {};
+    reach_end_effector_t effector_ = {};
 };
 
 } // namespace sim

@@ -171,6 +171,11 @@ void SimBus::publish_state(const reach_robot_state_t &state)
     bot_core_joint_state_t_publish(lcm_, "JOINT_STATE", &joints);
 }
 
+void SimBus::publish_effector(const reach_end_effector_t &effector)
+{
+    reach_end_effector_t_publish(lcm_, "END_EFFECTOR", &effector);
+}
+
 void SimBus::publish_truth(const reach_sim_truth_t &truth)
 {
     reach_sim_truth_t_publish(truth_lcm_, "SIM_TRUTH", &truth);

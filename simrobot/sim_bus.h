@@ -2,6 +2,7 @@
 #ifndef SIMROBOT_SIM_BUS_H
 #define SIMROBOT_SIM_BUS_H
 
+#include <reach_end_effector_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
 #include <reach_sim_request_t.h>
@@ -49,6 +50,7 @@ public:
 
     /* ROBOT_STATE, and JOINT_STATE with the same numbers for others' tools. */
     void publish_state(const reach_robot_state_t &state);
+    void publish_effector(const reach_end_effector_t &effector);
     void publish_truth(const reach_sim_truth_t &truth);
 
     /* Counts and warns of, at most once a second, something from outside that was refused. */

@@ -8,8 +8,9 @@ namespace sim
 {
 
 Simulation::Simulation(const Config &config, const Rig &rig, uint64_t seed)
-    : config_(config), rig_(rig), robot_(world_, rig, config), light_(config, seed),
-      mounts_(config, seed), encoder_random_(seed, 1), start_(rig.joints.size(), 0.0)
+    : config_(config), rig_(rig), world_(config.physics_step * 1e-3), robot_(world_, rig, config),
+      light_(config, seed), mounts_(config, seed), encoder_random_(seed, 1),
+      effector_random_(seed, 8), start_(rig.joints.size(), 0.0)
 {
     for (int i = 0; i < config.start.n; i++)
         start_[static_cast<size_t>(i)] = config.start.value[i];
@@ -72,6 +73,15 @@ Reading Simulation::read_encoders()
     return reading;
 }
 
+Eigen::Vector3d Simulation::measure_effector()
+{
+    Eigen::Vector3d position = tool_->ball();
+
+    for (double &coordinate : position)
+        coordinate += config_.effector_noise * effector_random_.gaussian();
+    return position;
+}
+
 std::vector<Shape> Simulation::shapes(const std::vector<Eigen::Isometry3d> &poses) const
 {
     std::vector<Shape> result;
@@ -88,7 +98,7 @@ std::vector<Shape> Simulation::shapes(const std::vector<Eigen::Isometry3d> &pose
 Snapshot Simulation::snapshot(int64_t number) const
 {
     std::vector<Eigen::Isometry3d> poses = robot_.segment_poses();
-    double seconds = static_cast<double>(steps_) * physics_step;
+    double seconds = static_cast<double>(elapsed()) * 1e-6;
     MountTurns turns = mounts_.at(seconds, number);
 
     return {number,

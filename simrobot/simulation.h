@@ -42,6 +42,9 @@ struct Truth {
     Fixation fixation;
 };
 
+/* The control period. */
+inline constexpr int period_ms = 20;
+
 class Simulation
 {
 public:
@@ -73,8 +76,26 @@ public:
         return steps_;
     }
 
+    /* Of all steps so far, us; exact. */
+    int64_t elapsed() const
+    {
+        return steps_ * config_.physics_step * int64_t{1000};
+    }
+
+    int steps_in_period() const
+    {
+        return period_ms / config_.physics_step;
+    }
+    int64_t step_us() const
+    {
+        return config_.physics_step * int64_t{1000};
+    }
+
     /* Each call reads anew, with new errors: call it once a period. */
     Reading read_encoders();
+
+    /* Where the end-effector is measured to be, in the base's frame, m; likewise. */
+    Eigen::Vector3d measure_effector();
 
     Snapshot snapshot(int64_t number) const;
     Truth truth() const;
@@ -98,7 +119,7 @@ private:
     Light light_;
     Mounts mounts_;
     double brightness_ = 1;
-    Random encoder_random_;
+    Random encoder_random_, effector_random_;
     std::vector<double> start_;
     int64_t steps_ = 0;
 };

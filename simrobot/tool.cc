@@ -7,11 +7,11 @@ namespace sim
 namespace
 {
 
-/* The frame at the tool's root whose z axis points along the tool: the least turn from the hand's,
- * half way about x for a tool that points back. By hand, since Eigen's way holds an SVD. */
-Eigen::Isometry3d root_frame(const Eigen::Isometry3d &hand, const ToolConfig &tool)
+/* The hand's frame turned so that z points along `direction`: the least turn, half way about x for
+ * what points back. By hand, since Eigen's way holds an SVD. */
+Eigen::Isometry3d root_frame(const Eigen::Isometry3d &hand, const struct option_list &direction)
 {
-    Eigen::Vector3d z = Eigen::Vector3d(tool.direction.value).normalized();
+    Eigen::Vector3d z = Eigen::Vector3d(direction.value).normalized();
     Eigen::Quaterniond turn(1 + z.z(), -z.y(), z.x(), 0);
 
     return hand * (turn.norm() > 1e-9 ? turn.normalized() : Eigen::Quaterniond(0, 1, 0, 0));
@@ -27,9 +27,9 @@ Tool::Tool(World &world, dBodyID hand, const Eigen::Isometry3d &frame, const Con
     if (!tool)
         add_bare_ball(world, hand, frame);
     else if (tool->kind == static_cast<int>(ToolKind::stick))
-        add_stick(world, hand, root_frame(frame, *tool));
+        add_stick(world, hand, frame);
     else
-        add_tube(world, hand, root_frame(frame, *tool));
+        add_tube(world, hand, root_frame(frame, tool->direction));
     for (const Piece &piece : pieces_)
         body_move_with(piece.body, hand);
 }
@@ -54,10 +54,21 @@ void Tool::add_bare_ball(World &world, dBodyID hand, const Eigen::Isometry3d &fr
     fix(world, hand);
 }
 
-void Tool::add_stick(World &world, dBodyID hand, const Eigen::Isometry3d &root)
+/* One piece, or two where it has a foot, of a mass in proportion to their lengths. */
+void Tool::add_stick(World &world, dBodyID hand, const Eigen::Isometry3d &frame)
 {
-    add_piece(world, root, tool_.length, tool_.mass, true);
+    Eigen::Isometry3d root = root_frame(frame, tool_.direction);
+    double share = tool_.length / (tool_.length + tool_.foot);
+
+    add_piece(world, root, tool_.length, tool_.mass * share, tool_.foot <= 0);
     fix(world, hand);
+    if (tool_.foot <= 0)
+        return;
+    dBodyID carrier = pieces_.back().body;
+    Eigen::Isometry3d foot = root_frame(frame, tool_.foot_direction);
+    foot.translation() = root * Eigen::Vector3d(0, 0, tool_.length);
+    add_piece(world, foot, tool_.foot, tool_.mass * (1 - share), true);
+    fix(world, carrier);
 }
 
 /* Lumped bending: each joint stands for one piece's length of tube, E I / l; the first for half a
@@ -100,11 +111,11 @@ void Tool::add_piece(World &world, const Eigen::Isometry3d &root, double length,
     pieces_.push_back(piece);
 }
 
-void Tool::fix(World &world, dBodyID hand)
+void Tool::fix(World &world, dBodyID carrier)
 {
     Piece &piece = pieces_.back();
     piece.joint = dJointCreateFixed(world.id(), nullptr);
-    dJointAttach(piece.joint, piece.body, hand);
+    dJointAttach(piece.joint, piece.body, carrier);
     dJointSetFixed(piece.joint);
 }
 
@@ -112,7 +123,7 @@ void Tool::fix(World &world, dBodyID hand)
  * CFM"): ERP = h k / (h k + c), CFM = 1 / (h k + c). */
 void Tool::bend(World &world, dBodyID carrier, const Eigen::Isometry3d &root, double stiffness)
 {
-    const double h = physics_step;
+    const double h = world.step_length();
     const double c = tool_.damping * stiffness;
     const double erp = h * stiffness / (h * stiffness + c);
     const double cfm = 1 / (h * stiffness + c);

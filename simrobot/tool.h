@@ -1,5 +1,6 @@
 /* What is in the hand, with the one green ball at its end: nothing (the ball sits at the hand), a
- * rigid stick, or a flexible tube. All are a chain of capsules; they differ in the joints. */
+ * rigid stick, straight or with a foot like an L's, or a flexible tube. All are a chain of
+ * capsules; they differ in the joints. */
 #ifndef SIMROBOT_TOOL_H
 #define SIMROBOT_TOOL_H
 
@@ -43,11 +44,11 @@ private:
     };
 
     void add_bare_ball(World &world, dBodyID hand, const Eigen::Isometry3d &frame);
-    void add_stick(World &world, dBodyID hand, const Eigen::Isometry3d &root);
+    void add_stick(World &world, dBodyID hand, const Eigen::Isometry3d &frame);
     void add_tube(World &world, dBodyID hand, const Eigen::Isometry3d &root);
     void add_piece(World &world, const Eigen::Isometry3d &root, double length, double mass,
                    bool last);
-    void fix(World &world, dBodyID hand);
+    void fix(World &world, dBodyID carrier);
     void bend(World &world, dBodyID carrier, const Eigen::Isometry3d &root, double stiffness);
 
     double ball_radius_, ball_mass_;

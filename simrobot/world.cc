@@ -14,7 +14,7 @@ void start_ode()
 
 } // namespace
 
-World::World()
+World::World(double step) : step_(step)
 {
     start_ode();
     id_ = dWorldCreate();
@@ -31,7 +31,7 @@ World::~World()
 
 void World::step()
 {
-    dWorldStep(id_, physics_step);
+    dWorldStep(id_, step_);
 }
 
 Eigen::Isometry3d body_pose(dBodyID body)

@@ -9,13 +9,13 @@
 namespace sim
 {
 
-/* One physics step. Spring-dampers and camera exposures are laid out on this grid. */
+/* The physics step where the configuration names no other; camera exposures lie on this grid. */
 inline constexpr double physics_step = 0.001; /* s */
 
 class World
 {
 public:
-    World();
+    explicit World(double step = physics_step);
     ~World();
     World(const World &) = delete;
     World &operator=(const World &) = delete;
@@ -25,11 +25,16 @@ public:
         return id_;
     }
 
-    /* Advances by physics_step. */
+    /* Advances by step_length() seconds. */
     void step();
+    double step_length() const
+    {
+        return step_;
+    }
 
 private:
     dWorldID id_;
+    double step_;
 };
 
 /* Pose of a body's frame, whose origin is its centre of mass. */

@@ -8,15 +8,15 @@
 namespace fixture
 {
 
-std::string configuration_path()
+std::string configuration_path(const char *name)
 {
     const char *source = getenv("REACH_SOURCE_DIR");
-    return std::string(source ? source : ".") + "/etc/simrobot-kobian.yaml";
+    return std::string(source ? source : ".") + "/etc/" + name;
 }
 
-sim::Config config(std::initializer_list<const char *> overrides)
+sim::Config config(std::initializer_list<const char *> overrides, const char *name)
 {
-    std::string path = configuration_path();
+    std::string path = configuration_path(name);
     std::vector<const char *> list(overrides);
     sim::Config result;
     std::string error;

@@ -16,11 +16,12 @@ namespace fixture
 
 inline constexpr double degree = 3.14159265358979323846 / 180;
 
-/* Where the shipped configuration is; ctest sets REACH_SOURCE_DIR. */
-std::string configuration_path();
+/* Where a shipped configuration is; ctest sets REACH_SOURCE_DIR. */
+std::string configuration_path(const char *name = "simrobot-kobian.yaml");
 
-/* The shipped Kobian with these overrides; ends the test on an error. */
-sim::Config config(std::initializer_list<const char *> overrides = {});
+/* A shipped robot, the Kobian by default, with these overrides; ends the test on an error. */
+sim::Config config(std::initializer_list<const char *> overrides = {},
+                   const char *name = "simrobot-kobian.yaml");
 sim::Rig rig(const sim::Config &config);
 
 /* A world and what it needs to outlive. */
@@ -30,7 +31,7 @@ struct Stage {
     std::unique_ptr<sim::Simulation> simulation;
 };
 
-/* The shipped robot with its joints at `degrees` (arm, then head), at rest, tool in hand. */
+/* The shipped Kobian with its joints at `degrees` (arm, then head), at rest, tool in hand. */
 std::unique_ptr<Stage> stage(std::initializer_list<const char *> overrides,
                              const std::vector<double> &degrees, int tool = 0, uint64_t seed = 1);
 

@@ -37,6 +37,7 @@ public:
     {
         truth_lcm_ = truth_url ? open_bus(truth_url) : lcm_;
         reach_robot_state_t_subscribe(lcm_, "ROBOT_STATE", on_state, this);
+        reach_end_effector_t_subscribe(lcm_, "END_EFFECTOR", on_effector, this);
         reach_sim_truth_t_subscribe(truth_lcm_, "SIM_TRUTH", on_truth, this);
         lcm_subscribe(lcm_, "STEREO_IMAGES", on_images, this);
     }
@@ -110,6 +111,8 @@ public:
 
     std::vector<reach_robot_state_t> states;
     std::vector<reach_sim_truth_t> truths;
+    std::vector<reach_end_effector_t> effectors;
+    std::vector<std::string> order; /* of what came, channel by channel */
     std::vector<std::vector<uint8_t>> images;
 
 private:
@@ -117,6 +120,14 @@ private:
                          void *user)
     {
         static_cast<Partner *>(user)->states.push_back(*state);
+        static_cast<Partner *>(user)->order.emplace_back("state");
+    }
+
+    static void on_effector(const lcm_recv_buf_t *, const char *,
+                            const reach_end_effector_t *effector, void *user)
+    {
+        static_cast<Partner *>(user)->effectors.push_back(*effector);
+        static_cast<Partner *>(user)->order.emplace_back("effector");
     }
 
     static void on_truth(const lcm_recv_buf_t *, const char *, const reach_sim_truth_t *truth,
@@ -153,10 +164,12 @@ public:
         const char *truth_url = nullptr;
         uint64_t seed = 1;
         const char *resend = patient;
+        const char *effector = "effector.published=false";
     };
 
     explicit Running(const Options &options)
-        : stage_(fixture::stage({options.resend}, {-65, -17.5, 0, -65, -22, 3}, 0, options.seed)),
+        : stage_(fixture::stage({options.resend, options.effector}, {-65, -17.5, 0, -65, -22, 3}, 0,
+                                options.seed)),
           bus_(open_simulator(options.truth_url))
     {
         sim::ClockControl control;

@@ -108,6 +108,31 @@ START_TEST(test_states_follow_the_answers)
 }
 END_TEST
 
+/* Where it is measured comes before the state that it is due with, whenever that is sent. */
+START_TEST(test_the_effector_comes_before_its_state)
+{
+    Partner partner;
+    Running simulator(
+        {false, false, true, nullptr, 1, "lockstep.resend=0.1", "effector.published=true"});
+
+    ck_assert(partner.drive(5, 0.3));
+    size_t before = partner.states.size();
+    ck_assert(partner.wait([&] { return partner.states.size() > before; }));
+    ck_assert_uint_eq(partner.states.size(), partner.effectors.size());
+    for (size_t i = 0; i < partner.states.size(); i++) {
+        const reach_end_effector_t &effector = partner.effectors[i];
+        ck_assert_str_eq(partner.order[2 * i].c_str(), "effector");
+        ck_assert_int_eq(effector.utime, partner.states[i].utime);
+        ck_assert_int_eq(effector.seq, partner.states[i].seq);
+        ck_assert_int_eq(partner.states[i].effector_due, effector.utime);
+    }
+    for (size_t i = 0; i < partner.truths.size() && i < 5; i++)
+        for (int axis = 0; axis < 3; axis++)
+            ck_assert_double_eq_tol(partner.effectors[i].position[axis],
+                                    partner.truths[i].marker[axis], 1e-12);
+}
+END_TEST
+
 START_TEST(test_unanswered_state_comes_again)
 {
     Partner partner;
@@ -281,6 +306,7 @@ int main()
                             test_bad_commands_are_refused_and_counted,
                             test_second_simulator_is_refused,
                             test_states_follow_the_answers,
+                            test_the_effector_comes_before_its_state,
                             test_unanswered_state_comes_again,
                             test_experimenter_holds_the_clock,
                             test_bad_requests_are_not_acknowledged,
