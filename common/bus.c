@@ -11,10 +11,10 @@
 #include <unistd.h>
 
 static const char hello_channel[] = "REACH_HELLO";
-#define RECEIVE_BUFFER_WANTED (8L << 20) /* bytes */
 #define URL_MOST 512
 
 static const int self_test_ms = 500;
+static const int receive_buffer_wanted = 8 << 20; /* bytes */
 
 static int64_t clock_us(clockid_t clock)
 {
@@ -102,31 +102,34 @@ static lcm_t *no_route(const char *url, char *error, size_t error_size)
     return NULL;
 }
 
-/* What the kernel grants a socket at most; LCM complains aloud about a wish that is not met. */
-static long receive_buffer_most(void)
+/* Asked of a socket and not of /proc/sys, which a service may not see. The kernel doubles what it
+ * grants, for its own use. */
+int bus_receive_buffer_most(void)
 {
-    FILE *file = fopen("/proc/sys/net/core/rmem_max", "r");
-    long most = 0;
+    int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), size = receive_buffer_wanted;
+    socklen_t length = sizeof size;
 
-    if (!file)
+    if (probe < 0)
         return 0;
-    if (fscanf(file, "%ld", &most) != 1)
-        most = 0;
-    fclose(file);
-    return most < RECEIVE_BUFFER_WANTED ? most : RECEIVE_BUFFER_WANTED;
+    if (setsockopt(probe, SOL_SOCKET, SO_RCVBUF, &size, sizeof size) ||
+        getsockopt(probe, SOL_SOCKET, SO_RCVBUF, &size, &length))
+        size = 0;
+    close(probe);
+    return size / 2;
 }
 
 void bus_url(const char *url, char *full, size_t size)
 {
     const char *environment = getenv("LCM_DEFAULT_URL");
-    long buffer = receive_buffer_most();
+    /* LCM complains aloud about a wish that is not met. */
+    int buffer = bus_receive_buffer_most();
 
     if (!url || !*url)
         url = environment && *environment ? environment : BUS_DEFAULT_URL;
     if (strncmp(url, "udpm:", 5) != 0 || strstr(url, "recv_buf_size") || buffer <= 0)
         snprintf(full, size, "%s", url);
     else
-        snprintf(full, size, "%s%crecv_buf_size=%ld", url, strchr(url, '?') ? '&' : '?', buffer);
+        snprintf(full, size, "%s%crecv_buf_size=%d", url, strchr(url, '?') ? '&' : '?', buffer);
 }
 
 lcm_t *bus_open(const char *given, char *error, size_t error_size)

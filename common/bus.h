@@ -20,6 +20,10 @@ extern "C" {
  * socket of the bus, and a small buffer loses what comes behind them. */
 void bus_url(const char *url, char *full, size_t size);
 
+/* The largest receive buffer that the kernel grants a socket here, at most 8 MB; 0 when it cannot
+ * be found out. */
+int bus_receive_buffer_most(void);
+
 /* Opens the bus and sends itself a message, since LCM itself reports nothing when the multicast
  * route is missing. `url` NULL or "" is $LCM_DEFAULT_URL, else BUS_DEFAULT_URL.
  *   returns the instance, to be freed with lcm_destroy, or NULL with one line in `error` that

@@ -16,6 +16,7 @@
 #define MARKERS 64
 #define REQUESTS 16
 #define OUTGOING 256
+#define REPORTS 4
 
 static const int poll_ms = 100; /* how soon the receiving thread sees that it is to end */
 
@@ -33,7 +34,7 @@ struct outgoing {
 
 struct daemon_bus {
     lcm_t *lcm;
-    struct mailbox *states, *markers, *requests, *outgoing;
+    struct mailbox *states, *markers, *requests, *outgoing, *reports;
     sem_t arrived; /* posted for every message that the loop may wait for */
     sem_t to_send; /* posted for every outgoing message */
     _Atomic bool ending;
@@ -50,7 +51,8 @@ size_t daemon_bus_memory(void)
            mailbox_memory(sizeof(struct received_state), STATES) +
            mailbox_memory(sizeof(reach_marker_t), MARKERS) +
            mailbox_memory(sizeof(reach_request_t), REQUESTS) +
-           mailbox_memory(sizeof(struct outgoing), OUTGOING);
+           mailbox_memory(sizeof(struct outgoing), OUTGOING) +
+           mailbox_memory(sizeof(reach_status_t), REPORTS);
 }
 
 /* Decodes a whole message of a type of fixed size: anything longer or shorter is refused. */
@@ -114,7 +116,8 @@ static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
     bus->markers = mailbox_create(arena, sizeof(reach_marker_t), MARKERS);
     bus->requests = mailbox_create(arena, sizeof(reach_request_t), REQUESTS);
     bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
-    return bus->states && bus->markers && bus->requests && bus->outgoing;
+    bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
+    return bus->states && bus->markers && bus->requests && bus->outgoing && bus->reports;
 }
 
 struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *error,
@@ -213,6 +216,11 @@ struct mailbox *daemon_bus_requests(struct daemon_bus *bus)
     return bus->requests;
 }
 
+struct mailbox *daemon_bus_reports(struct daemon_bus *bus)
+{
+    return bus->reports;
+}
+
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)
 {
     struct timespec end;
@@ -253,6 +261,7 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
     bus->filling.kind = OUTGOING_STATUS;
     bus->filling.status = *status;
     hand_over(bus);
+    mailbox_put(bus->reports, status);
     bus->filling.kind = OUTGOING_TRACE;
     bus->filling.trace = *trace;
     hand_over(bus);

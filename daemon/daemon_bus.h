@@ -55,6 +55,10 @@ void daemon_bus_raise_emergency(struct daemon_bus *bus);
 /* For the loop thread: whether one was raised since it was last asked. */
 bool daemon_bus_take_emergency(struct daemon_bus *bus);
 
+/* The statuses that were sent, for the thread that keeps house: reach_status_t, oldest first. Those
+ * that it does not take in time are lost. */
+struct mailbox *daemon_bus_reports(struct daemon_bus *bus);
+
 /* Messages refused so far: malformed, or more than the mailboxes hold. */
 int64_t daemon_bus_refused(const struct daemon_bus *bus);
 

@@ -42,16 +42,27 @@ static void say_what_is_awaited(struct house *house)
     }
 }
 
+static void tell_service(struct house *house)
+{
+    while (mailbox_take(daemon_bus_reports(house->bus), &house->status))
+        house->any_status = true;
+    service_keep(&house->service, bus_monotonic_us(), loop_ticks(house->loop),
+                 loop_waits(house->loop) != LOOP_RUNS, house->any_status ? &house->status : NULL);
+}
+
 void house_keep(struct house *house)
 {
     const struct timespec period = {.tv_nsec = (long)period_ms * 1000000};
     sigset_t signals = house_signals();
 
+    service_begin(&house->service);
     for (;;) {
         int signal = sigtimedwait(&signals, NULL, &period);
         if (signal == SIGINT || signal == SIGTERM)
-            return;
+            break;
         model_store_serve(house->store, bus_monotonic_us());
         say_what_is_awaited(house);
+        tell_service(house);
     }
+    service_end();
 }

@@ -2,14 +2,20 @@
 #ifndef REACH_HOUSE_H
 #define REACH_HOUSE_H
 
+#include "daemon_bus.h"
 #include "loop.h"
 #include "model_store.h"
+#include "service.h"
 
 #include <stdint.h>
 
 struct house {
     struct loop *loop;
+    struct daemon_bus *bus;
     struct model_store *store;
+    struct service service;
+    reach_status_t status; /* the newest */
+    bool any_status;
     int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
     int64_t said;          /* when the log was last told of it, monotonic us */
 };

@@ -276,6 +276,7 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
         return -1;
     log_info("ready");
     house.loop = reachd->loop;
+    house.bus = reachd->bus;
     house.store = tick_model_store(reachd->tick);
     if (is_real_time(reachd))
         model_store_unlock_memory(house.store);

@@ -2,9 +2,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
+#include "common/bus.h"
 #include "common/log.h"
+#include "common/notify.h"
 #include "simrobot/command_line.h"
 #include "simrobot/eye_tasks.h"
 #include "simrobot/eye_thread.h"
@@ -22,8 +23,12 @@ void on_signal(int)
     stop_wanted = 1;
 }
 
+/* Both clocks ask several times a second, also while they wait for others: a sign of life. */
 bool stopping()
 {
+    static notify_watchdog watchdog = notify_watchdog_open();
+
+    notify_watchdog_feed(&watchdog, bus_monotonic_us());
     return stop_wanted != 0;
 }
 
@@ -39,13 +44,11 @@ void catch_signals()
 /* Raw pairs come as 29 fragments at once; a receiver whose buffer is too small loses them all. */
 void warn_of_small_buffers(const sim::Config &config)
 {
-    long long most = 0, pair = 2ll * config.width * config.height * 3;
-    std::ifstream file("/proc/sys/net/core/rmem_max");
+    long long most = bus_receive_buffer_most(), pair = 2ll * config.width * config.height * 3;
 
-    if (config.image_format == static_cast<int>(sim::ImageFormat::rgb) && file >> most &&
-        most < 2 * pair)
-        log_warning("raw images of %lld bytes a pair will be lost: net.core.rmem_max is %lld; "
-                    "sysctl -w net.core.rmem_max=%lld, or images.format: jpeg",
+    if (config.image_format == static_cast<int>(sim::ImageFormat::rgb) && most && most < 2 * pair)
+        log_warning("raw images of %lld bytes a pair will be lost: a socket holds %lld; sysctl -w "
+                    "net.core.rmem_max=%lld, or images.format: jpeg",
                     pair, most, 2 * pair);
 }
 
@@ -78,8 +81,10 @@ bool run(const sim::CommandLine &line, const sim::Config &config, sim::Simulatio
     control.lockstep = line.lockstep;
     control.until = line.hold ? 0 : INT64_MAX;
     sim::Session session(config, simulation, *bus, eyes.get(), control, line.send_truth);
+    notify_send("READY=1\nSTATUS=running in %s", line.lockstep ? "lockstep" : "real time");
     bool good = line.lockstep ? sim::lockstep_run(config, session, *bus, stopping, error)
                               : sim::realtime_run(config, session, *bus, stopping, error);
+    notify_send("STOPPING=1");
     log_info("ended after %.3f s of the world's time, %lld messages refused",
              static_cast<double>(simulation.elapsed()) * 1e-6,
              static_cast<long long>(bus->refused()));

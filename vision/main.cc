@@ -12,6 +12,7 @@
 
 #include "common/bus.h"
 #include "common/log.h"
+#include "common/notify.h"
 #include "vision/arguments.h"
 #include "vision/bench.h"
 #include "vision/config.h"
@@ -21,7 +22,8 @@
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;
-static const int64_t report_period = 60000000; /* us */
+static const int64_t report_period = 60000000; /* us, in the log */
+static const int64_t tell_period = 1000000;    /* us, to the service manager */
 
 static volatile sig_atomic_t stop_asked;
 
@@ -105,10 +107,36 @@ static void report(const statistics &counts)
     log_info("%s", line);
 }
 
+/* Tells log and service manager from time to time how it goes. */
+class reporter
+{
+public:
+    explicit reporter(const statistics &counts) : counts_(counts) {}
+
+    void keep(int64_t now)
+    {
+        notify_watchdog_feed(&watchdog_, now);
+        if (now - told_ >= tell_period) {
+            told_ = now;
+            notify_send("STATUS=%lld pairs, %lld seen", static_cast<long long>(counts_.pairs),
+                        static_cast<long long>(counts_.reasons[0]));
+        }
+        if (now - reported_ >= report_period) {
+            reported_ = now;
+            report(counts_);
+        }
+    }
+
+private:
+    const statistics &counts_;
+    notify_watchdog watchdog_ = notify_watchdog_open();
+    int64_t reported_ = bus_monotonic_us(), told_ = 0;
+};
+
 /* Until a signal or the end of the pairs. Returns the exit code. */
 static int serve(source *pairs, lcm_t *lcm, bool own_pace, const statistics &counts)
 {
-    int64_t reported = bus_monotonic_us();
+    reporter progress(counts);
     source_state state = SOURCE_OPEN;
 
     while (!stop_asked && state == SOURCE_OPEN) {
@@ -116,11 +144,9 @@ static int serve(source *pairs, lcm_t *lcm, bool own_pace, const statistics &cou
         /* Pairs that do not come over the bus leave the questions of others unanswered there. */
         if (own_pace && lcm_handle_timeout(lcm, 0) < 0)
             state = SOURCE_FAILED;
-        if (bus_monotonic_us() - reported < report_period)
-            continue;
-        reported = bus_monotonic_us();
-        report(counts);
+        progress.keep(bus_monotonic_us());
     }
+    notify_send("STOPPING=1");
     if (state == SOURCE_FAILED && !stop_asked) {
         log_error("pairs of pictures cannot be had any more");
         return 1;
@@ -150,6 +176,7 @@ static int run(const arguments &given, const vision_config &config, lcm_t *lcm)
     if (!pairs)
         return 1;
     log_info("ready");
+    notify_send("READY=1");
     int code = serve(pairs.get(), lcm, given.cameras || given.videos, seer.counts());
     report(seer.counts());
     if (given.stats && write_stats(given.stats, seer.counts()))

@@ -1,6 +1,7 @@
 #include "tools/reachctl/client.h"
 
 #include "common/bus.h"
+#include "common/status_words.h"
 #include "tools/reachctl/show.h"
 
 #include <lcm/lcm.h>
@@ -116,7 +117,7 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
              status->request_result == REACH_STATUS_T_PENDING);
     if (status->request_result == REACH_STATUS_T_ACCEPTED)
         return 0;
-    snprintf(error, error_size, "reachd: %s", show_result(status->request_result));
+    snprintf(error, error_size, "reachd: %s", status_result_word(status->request_result));
     return -1;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/reachctl/show.h"
 
-#include <assert.h>
+#include "common/status_words.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -8,41 +9,24 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
-static const char *const behaviours[] = {"none", "babble", "coordinate", "reach"};
-static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
-static const char *const results[] = {"accepted", "refused, not in this state",
-                                      "refused, a value is out of range", "pending",
-                                      "failed, see its log"};
-
-static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
-static_assert(COUNT(behaviours) == REACH_STATUS_T_REACH + 1, "a name for each behaviour");
-static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");
-static_assert(COUNT(results) == REACH_STATUS_T_FAILED + 1, "a name for each result");
-
-static const char *word(const char *const *names, size_t n, int index)
-{
-    return index >= 0 && (size_t)index < n ? names[index] : "unknown";
-}
-
-const char *show_result(int result)
-{
-    return word(results, COUNT(results), result);
-}
-
 const char *show_state(const reach_status_t *status)
 {
-    return word(states, COUNT(states), status->state);
+    return status_state_word(status->state);
 }
 
 const char *show_behaviour(const reach_status_t *status)
 {
-    return word(behaviours, COUNT(behaviours), status->behaviour);
+    return status_behaviour_word(status->behaviour);
 }
 
 const char *show_phase(const reach_status_t *status)
 {
-    return word(phases, COUNT(phases), status->phase);
+    return status_phase_word(status->phase);
+}
+
+static const char *result_word(const reach_status_t *status)
+{
+    return status_result_word(status->request_result);
 }
 
 double show_error(const reach_status_t *status)
@@ -78,7 +62,7 @@ void show_text(const reach_status_t *status, FILE *out)
             (long long)status->overruns, (long long)status->slips, (long long)status->bad_inputs,
             (long long)status->gated, (long long)status->dropped_samples);
     fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
-            (long long)status->request_seq, show_result(status->request_result));
+            (long long)status->request_seq, result_word(status));
 }
 
 enum field_type { FIELD_INT8, FIELD_INT32, FIELD_INT64, FIELD_DOUBLE };
@@ -171,7 +155,7 @@ void show_json(const reach_status_t *status, FILE *out)
 {
     fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", show_state(status),
             show_behaviour(status), show_phase(status));
-    fprintf(out, ", \"request_result\": \"%s\"", show_result(status->request_result));
+    fprintf(out, ", \"request_result\": \"%s\"", result_word(status));
     for (size_t i = 0; i < COUNT(fields); i++) {
         fprintf(out, ", \"%s\": ", fields[i].name);
         print_field(status, &fields[i], out);

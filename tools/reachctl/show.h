@@ -24,7 +24,4 @@ const char *show_phase(const reach_status_t *status);
 double show_error(const reach_status_t *status);
 const char *show_error_unit(const reach_status_t *status);
 
-/* What a request_result means. */
-const char *show_result(int result);
-
 #endif

@@ -1,5 +1,6 @@
 #include "tools/reachctl/top_view.h"
 
+#include "common/status_words.h"
 #include "tools/reachctl/show.h"
 
 #include <math.h>
@@ -118,7 +119,7 @@ static void draw_status(struct page *page, const struct top *top)
 
     line(page, LOOK_PLAIN, "progress   %d of %d, %d given up; marker %s%s; request %s", s->progress,
          s->progress_total, s->skipped, s->marker_seen ? "seen" : "not seen",
-         s->fixated ? ", fixated" : "", show_result(s->request_result));
+         s->fixated ? ", fixated" : "", status_result_word(s->request_result));
     line(page, LOOK_PLAIN,
          "model      %lld samples, %d experts; %d solutions, in use %d; context %d of %d",
          (long long)s->samples, s->experts, s->solutions, s->solution, s->context, s->contexts);
