@@ -10,12 +10,12 @@ from pathlib import Path
 
 from . import metrics, pictures, programs, report, summary
 from .bus import Bus, NoAnswerError
-from .clock import HeldClock, RealClock
 from .experiment import Experiment, ExperimentError
 from .messages import ROOT
-from .processes import ProcessDiedError, Processes
+from .processes import ProcessDiedError
 from .progress import Progress
 from .record import read_log
+from .session import Stop, session
 
 TOOL = 1  # the simulator's first tool, the rubber tube
 BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
@@ -68,39 +68,14 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
             "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
 
 
-class Stop:
-    """Notes that the user wants an end.
-
-    It is raised only between two looks at the bus: an exception out of a signal may strike
-    anywhere, even where the programs are being ended.
-    """
-
-    def __init__(self):
-        self._asked = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._note)
-
-    def _note(self, *_) -> None:
-        self._asked = True
-
-    def check(self) -> None:
-        if self._asked:
-            raise KeyboardInterrupt
-
-
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
-    stop = Stop()
-    with Processes(options.out) as processes:
-        programs.start(
-            processes, options.out, seed=options.seed, experts=options.experts,
-            realtime=options.realtime, keep_images=options.keep_images,
-        )  # fmt: skip
-        bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
-        programs.wait_until_ready(bus, options.out)
-        clock = RealClock(bus) if options.realtime else HeldClock(bus)
+    learner = [programs.LEARNERS["linear"]] if options.experts == "linear" else []
+    with session(
+        options.out, Stop(), seed=options.seed, configurations=learner,
+        realtime=options.realtime, keep_images=options.keep_images,
+    ) as (bus, clock):  # fmt: skip
         experiment = Experiment(bus, clock, Progress(weights(options)), phases)
-        clock.advance(1.0)
         perform(experiment, bus, clock, options)
 
 

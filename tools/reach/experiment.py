@@ -39,10 +39,18 @@ class Experiment:
 
     def star(self, name: str, targets: np.ndarray, period: float) -> None:
         """Reaches under a resting head, from the middle of the babbled range."""
+        self._pursue(name, reach.request_t.REACH, targets, period, learn=True)
+
+    def coordinate(self, name: str, targets: np.ndarray, period: float, learn: bool) -> None:
+        """The head turns to targets, the arm keeps the ball in fixation; the same start."""
+        self._pursue(name, reach.request_t.COORDINATE, targets, period, learn)
+
+    def _pursue(self, name: str, kind: int, targets: np.ndarray, period: float,
+                learn: bool) -> None:  # fmt: skip
         rows = np.zeros((MAX_TARGETS, 3))
         rows[: len(targets)] = targets
         self._behave(
-            name, reach.request_t.REACH, learn=1, count=1, n_targets=len(targets),
+            name, kind, learn=int(learn), count=1, n_targets=len(targets),
             target=rows.tolist(), period=period,
         )  # fmt: skip
 

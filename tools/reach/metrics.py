@@ -22,10 +22,18 @@ def to_people(x: np.ndarray) -> np.ndarray:
     return np.asarray(x)[..., :3] * _TO_PEOPLE
 
 
+_ENDS = [(50, 0), (50, 50), (0, 50), (-50, 50), (-50, 0), (-50, -50), (0, -50), (50, -50)]
+
+
 def star_targets() -> np.ndarray:
-    """The 16 targets of sections 7.2 and 7.3: each of 8 ends, every one followed by the centre."""
-    ends = [(50, 0), (50, 50), (0, 50), (-50, 50), (-50, 0), (-50, -50), (0, -50), (50, -50)]
-    return np.array([row for u, v in ends for row in ((u, v, 0.0), (0.0, 0.0, 0.0))], float)
+    """The 16 targets of section 7.3: each of 8 ends, every one followed by the centre."""
+    return np.array([row for u, v in _ENDS for row in ((u, v, 0.0), (0.0, 0.0, 0.0))], float)
+
+
+def coordination_targets() -> np.ndarray:
+    """The same asterisk for a head that turns to each target (section 7.2): from an end, the centre
+    is where the opposite end was."""
+    return np.array([row for u, v in _ENDS for row in ((u, v, 0.0), (-u, -v, 0.0))], float)
 
 
 def rmse(predicted: np.ndarray, measured: np.ndarray) -> np.ndarray:

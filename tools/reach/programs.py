@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from .bus import DEFAULT_URL, Bus
@@ -14,41 +15,50 @@ BINARIES = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
 # to its net.core.rmem_max.
 LISTENER_URL = f"{DEFAULT_URL}&recv_buf_size=8388608"
 
+LEARNERS = {"linear": ROOT / "etc/learner-linear.yaml", "lwpr": ROOT / "etc/learner-lwpr.yaml"}
+
 
 def start(
     processes: Processes,
     out: Path,
     *,
     seed: int,
-    experts: str = "polynomial",
+    robot: str = "kobian",
+    configurations: Sequence[Path] = (),
     realtime: bool = False,
     keep_images: bool = False,
     simrobot: tuple = (),
 ) -> None:
-    """Starts recorder, reachd, vision and simrobot, whose further options are `simrobot`."""
+    """Starts recorder, reachd, simrobot, whose further options are `simrobot`, and vision where the
+    robot has eyes.
+
+    reachd reads `configurations` over the robot's."""
     channels = ".*" if keep_images else ALL_BUT_IMAGES
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
     etc, url = ROOT / "etc", ["--url", DEFAULT_URL]
-    configurations = ["--config", etc / "kobian.yaml"]
-    if experts == "linear":  # they want other priors, too
-        configurations += ["--config", etc / "learner-linear.yaml"]
+    files = (etc / f"{robot}.yaml", *configurations)
+    daemon = [word for path in files for word in ("--config", path)]
+    eyes = etc / f"vision-{robot}.yaml"
     commands = {
         "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,
                      "--channels", channels, out / "run.lcmlog"],
-        "reachd": [BINARIES / "reachd", *configurations, *url, daemon_clock],
-        "vision": [BINARIES / "vision", "--config", etc / "vision-kobian.yaml", *url],
-        "simrobot": [BINARIES / "simrobot", "--config", etc / "simrobot-kobian.yaml", *url, *clock,
-                     "--seed", str(seed), *simrobot],
+        "reachd": [BINARIES / "reachd", *daemon, *url, daemon_clock],
+        "vision": [BINARIES / "vision", "--config", eyes, *url],
+        "simrobot": [BINARIES / "simrobot", "--config", etc / f"simrobot-{robot}.yaml", *url,
+                     *clock, "--seed", str(seed), *simrobot],
     }  # fmt: skip
+    if not eyes.exists():
+        del commands["vision"]
     for name, command in commands.items():
         processes.start(name, command)
 
 
-def wait_until_ready(bus: Bus, out: Path) -> None:
-    """Until the log is being written and the three programs have answered on the bus."""
+def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian") -> None:
+    """Until the log is being written and the programs have answered on the bus."""
     bus.wait((out / "run.lcmlog").exists, "the recorder", lambda: None)
     hello = reach.hello_t
     bus.wait_for_role(hello.DAEMON, "reachd")
-    bus.wait_for_role(hello.VISION, "vision")
+    if (ROOT / f"etc/vision-{robot}.yaml").exists():
+        bus.wait_for_role(hello.VISION, "vision")
     bus.wait_for_role(hello.SIMULATOR, "simrobot")

@@ -27,6 +27,10 @@ class Progress:
         self._out.write(f"\r{line}\033[K" if self._live else f"{line}\n")
         self._out.flush()
 
+    def part(self, name: str) -> "Part":
+        """The same line for the phases of one of several runs, which are weighed as NAME/PHASE."""
+        return Part(self, name)
+
     def finish(self, phase: str, text: str) -> None:
         self._done.add(phase)
         clear = "\r\033[K" if self._live else ""
@@ -40,4 +44,20 @@ class Progress:
         if done <= 0.01 * total:
             return "time left unknown yet"
         seconds = (time.monotonic() - self._start) * (total - done) / done
-        return f"{int(seconds) // 60}:{int(seconds) % 60:02d} left"
+        minutes, second = divmod(int(seconds), 60)
+        hours = f"{minutes // 60}:{minutes % 60:02d}" if minutes >= 60 else str(minutes)
+        return f"{hours}:{second:02d} left"
+
+
+class Part:
+    """A run among several: its phases under its name."""
+
+    def __init__(self, progress: Progress, name: str):
+        self._progress = progress
+        self._name = name
+
+    def update(self, phase: str, share: float, text: str) -> None:
+        self._progress.update(f"{self._name}/{phase}", share, text)
+
+    def finish(self, phase: str, text: str) -> None:
+        self._progress.finish(f"{self._name}/{phase}", text)

@@ -1,33 +1,10 @@
 """report.html: the run's figures beside the paper's numbers, in one file that opens from disk."""
 
-import base64
 import html
-import io
 from pathlib import Path
-from string import Template
 
-from . import figures, metrics
+from . import figures, metrics, page
 from .record import Record
-
-_PAGE = Template("""<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>$title</title>
-<style>
-body { font: 15px/1.5 Georgia, serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem;
-       color: #222 }
-h1, h2, th { font-family: Helvetica, Arial, sans-serif }
-h1 { font-size: 1.6rem; margin-bottom: 0 } h2 { font-size: 1.15rem; margin-top: 2.2rem }
-table { border-collapse: collapse; margin: 1rem 0; font-size: 0.92rem }
-td, th { padding: 0.25rem 0.9rem 0.25rem 0; border-bottom: 1px solid #ddd; text-align: left }
-td + td { font-variant-numeric: tabular-nums }
-figure { margin: 1rem 0; break-inside: avoid } figure img, figure svg { width: 100%; height: auto }
-figcaption, .small { font-size: 0.9rem; color: #555 }
-.met { color: #1b7a3d } .missed { color: #b3261e }
-</style></head><body>
-<h1>$title</h1>
-<p class="small">$subtitle</p>
-$body
-</body></html>
-""")
 
 _STAR_LIMITS = {"median": 2.0, "max": 5.0}  # px
 _RMSE_FACTOR = 1.5  # of the paper's percentages
@@ -44,7 +21,7 @@ def write(out: Path, record: Record, run: dict, result: dict) -> None:
     ]
     for title, figure, caption in shown:
         if figure is not None:
-            parts += [f"<h2>{title}</h2>", _embed(figure, caption, title)]
+            parts += [f"<h2>{title}</h2>", page.embed(figure, caption, title)]
     parts += ["<h2>The run</h2>", _phases(run)]
     title = "A robot learns its arm, a rubber tube, and reaches with both"
     subtitle = (
@@ -52,8 +29,7 @@ def write(out: Path, record: Record, run: dict, result: dict) -> None:
         f" {result['robot_seconds']:.0f} s of robot time in {result['wall']['seconds']:.0f} s"
         f" ({run['clock']} clock)"
     )
-    page = _PAGE.substitute(title=title, subtitle=subtitle, body="\n".join(parts))
-    (out / "report.html").write_text(page)
+    (out / "report.html").write_text(page.whole(title, subtitle, parts))
     if (picture := figures.result(record, run, out / "images")) is not None:
         picture.savefig(out / "result.png", dpi=100)
 
@@ -130,35 +106,19 @@ def _rows(result: dict) -> list[tuple]:
 
 
 def _table(rows: list[tuple]) -> str:
-    marks = {True: '<span class="met">met</span>', False: '<span class="missed">not met</span>'}
-    cells = "".join(
-        f"<tr><td>{html.escape(what)}</td><td>{html.escape(paper)}</td><td>{html.escape(ours)}</td>"
-        f"<td>{marks.get(met, '')}</td></tr>"
-        for what, paper, ours, met in rows
-    )
-    return f"<table><tr><th></th><th>paper</th><th>this run</th><th>aim</th></tr>{cells}</table>"
+    """(what, the paper's, ours, met or None)."""
+    cells = [(*map(html.escape, row[:3]), page.mark(row[3])) for row in rows]
+    return page.table(("", "paper", "this run", "aim"), cells)
 
 
 def _phases(run: dict) -> str:
-    rows = "".join(
-        f"<tr><td>{phase['name']}</td><td>{'tube' if phase['tool'] else 'hand'}</td>"
-        f"<td>{'yes' if phase['learn'] else 'frozen'}</td>"
-        f"<td>{(phase['end'] - phase['start']) * 1e-6:.0f} s</td><td>{phase['skipped']}</td>"
-        f"<td>{phase['experts']}</td></tr>"
+    rows = [
+        (phase["name"], "tube" if phase["tool"] else "hand", "yes" if phase["learn"] else "frozen",
+         f"{(phase['end'] - phase['start']) * 1e-6:.0f} s", phase["skipped"], phase["experts"])
         for phase in run["phases"]
-    )
+    ]  # fmt: skip
     heads = ("phase", "holding", "learning", "robot time", "given up", "experts after")
-    return f"<table><tr>{''.join(f'<th>{h}</th>' for h in heads)}</tr>{rows}</table>"
-
-
-def _embed(figure, caption: str, title: str) -> str:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=150)
-    data = base64.b64encode(buffer.getvalue()).decode()
-    return (
-        f'<figure><img alt="{html.escape(title)}" src="data:image/png;base64,{data}">'
-        f"<figcaption>{caption}</figcaption></figure>"
-    )
+    return page.table(heads, rows)
 
 
 _NOTES = """<p class="small">Aims: test errors at most 1.5 times the paper's percentages; STAR

@@ -1,6 +1,5 @@
 """From a log to summary.json and report.html, on a made-up run whose numbers are known."""
 
-import html.parser
 import json
 import sys
 import tempfile
@@ -13,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import lcm
 import synthetic
+from balanced import Balanced
 from reach import report, summary
 from reach.record import read_log
 
@@ -82,24 +82,6 @@ class Report(unittest.TestCase):
         record = read_log(path)
         self.assertEqual(record.refused, 2)
         self.assertEqual(len(record["MARKER"]), 0)
-
-
-class Balanced(html.parser.HTMLParser):
-    """Which elements are left open."""
-
-    VOID = ("meta", "img", "br")
-
-    def __init__(self):
-        super().__init__()
-        self.open = []
-
-    def handle_starttag(self, tag, attrs):
-        if tag not in self.VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        if self.open and self.open[-1] == tag:
-            self.open.pop()
 
 
 if __name__ == "__main__":
