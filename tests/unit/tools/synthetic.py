@@ -1,4 +1,4 @@
-"""A made-up log of a whole demo whose numbers are known, for tests of record, summary, report."""
+"""Made-up logs whose numbers are known: of a whole demo, or of other phases."""
 
 from pathlib import Path
 
@@ -12,6 +12,8 @@ PERIOD = 20_000
 STAR_SECONDS = 2.0
 YAW_ERROR = np.radians(0.5)  # of every prediction against the measurement
 FINAL_ERROR = 3.0  # px, of every STAR target
+DEMO_PHASES = ("learn_hand", "test_hand", "learn_tool", "test_tool", "star_tool", "star_hand",
+               "retest_hand")  # fmt: skip
 
 
 class Writer:
@@ -36,7 +38,8 @@ class Writer:
         self.write("REACH_STATUS", reach.status_t(), request_seq=request, phase=phase,
                    progress=progress, compute_us=100.0 + self.tick % 7, experts=3)  # fmt: skip
         self.write("ROBOT_STATE", reach.robot_state_t(), n_joints=6)
-        self.write("SIM_TRUTH", reach.sim_truth_t(), u_right=u, in_view=1, visible=1.0, **seen)
+        self.write("SIM_TRUTH", reach.sim_truth_t(), n_joints=6, u_right=u, in_view=1, visible=1.0,
+                   **seen)  # fmt: skip
         self.write("SIM_TRUTH", reach.sim_truth_t(), u_right=u, in_view=1, visible=1.0,
                    exposure=1, **seen)  # fmt: skip
         self.write("MARKER", reach.marker_t(), seen=1, u_right=u + 1, compute_us=900.0, **seen)
@@ -47,7 +50,8 @@ class Writer:
         predicted = [x[0] + YAW_ERROR, *x[1:]]
         values = [predicted] + [[9.0] * 8] * 15
         self.write("REACH_SAMPLE", reach.sample_t(), request_seq=request, n_inputs=4, n_outputs=3,
-                   x=x, x_predicted=predicted, solutions=2, values=values)  # fmt: skip
+                   q=[0.01 * index] + [0.0] * 15, x=x, x_predicted=predicted, solutions=2,
+                   values=values)  # fmt: skip
 
     def close(self) -> None:
         self._log.close()
@@ -59,12 +63,12 @@ def _babble(writer: Writer, request: int, count: int) -> None:
         writer.sample(request, index)
 
 
-def _star(writer: Writer, request: int) -> None:
+def _pursue(writer: Writer, request: int, targets: np.ndarray) -> None:
     """Straight at once to 3 px beside each target."""
     for _ in range(10):
         writer.step(request, phase=2, progress=0, place=np.zeros(3))
     start = np.zeros(3)
-    for index, target in enumerate(metrics.star_targets()):
+    for index, target in enumerate(targets):
         steps = round(STAR_SECONDS * 1e6 / PERIOD)
         end = target + np.array([0, 0, FINAL_ERROR])
         for step in range(steps):
@@ -73,15 +77,18 @@ def _star(writer: Writer, request: int) -> None:
         start = end
 
 
-def make(folder: Path, count: int = 12) -> dict:
-    """Writes run.lcmlog and pictures into the folder; returns the description of the run."""
+def make(folder: Path, count: int = 12, names: tuple[str, ...] = DEMO_PHASES,
+         targets: dict[str, np.ndarray] | None = None) -> dict:  # fmt: skip
+    """Writes run.lcmlog and pictures into the folder; returns the description of the run.
+
+    `targets`: of the phases whose names begin so; all others babble."""
+    targets = targets or {"star": metrics.star_targets()}
     writer, phases = Writer(folder / "run.lcmlog"), []
-    names = ["learn_hand", "test_hand", "learn_tool", "test_tool", "star_tool", "star_hand",
-             "retest_hand"]  # fmt: skip
     for request, name in enumerate(names, start=1):
         start = writer.utime
-        if name.startswith("star"):
-            _star(writer, request)
+        pursued = [rows for prefix, rows in targets.items() if name.startswith(prefix)]
+        if pursued:
+            _pursue(writer, request, pursued[0])
         else:
             _babble(writer, request, count)
         phases.append({"name": name, "tool": int("tool" in name), "learn": "learn" in name,

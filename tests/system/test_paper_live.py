@@ -1,0 +1,43 @@
+"""`./run paper` on very few samples: the real programs fill every row, and are not run twice."""
+
+import contextlib
+import io
+import json
+import tempfile
+import time
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from reach.paper import __main__ as paper
+from reach.paper import kobian
+
+TINY = {"hand": 15, "tool": 15, "again": 3, "tests": 4, "star_seconds": 1.0}
+
+
+class Live(unittest.TestCase):
+    def call(self, out: Path) -> str:
+        with contextlib.redirect_stderr(io.StringIO()) as said, \
+             contextlib.redirect_stdout(io.StringIO()):  # fmt: skip
+            status = paper.main(["--quick", "--learner", "imle", "--only", "K1,K2,K3,K4",
+                                 "--out", str(out)])  # fmt: skip
+        self.assertEqual(status, 0, said.getvalue())
+        return said.getvalue()
+
+    @mock.patch.object(kobian, "settings", lambda quick, learner: TINY)
+    def test_every_row_is_measured_once(self):
+        with tempfile.TemporaryDirectory() as name:
+            out = Path(name)
+            self.call(out)
+            table = json.loads((out / "summary.json").read_text())
+            self.assertEqual([row["id"] for row in table if row["n"] != 1], [])
+            values = {row["id"]: row["mean"] for row in table}
+            self.assertEqual(values["K2.hand.targets"], 16)
+            self.assertLess(values["K3.hand.final_error_median_px"], 8)
+            began = time.monotonic()
+            self.assertIn("1 runs, 1 of them complete", self.call(out))
+            self.assertLess(time.monotonic() - began, 60)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+"""`./run paper`: every experiment of the paper on the simulated robots, and one report.
+
+A run, one robot with one learner and one seed, is a folder of its own in OUT/runs and is not done
+again while its inputs stay the same. What remains in OUT: report.html, report.pdf, summary.json.
+"""
+
+import argparse
+import signal
+import sys
+from pathlib import Path
+
+from ..bus import NoAnswerError
+from ..experiment import ExperimentError
+from ..processes import ProcessDiedError
+from ..programs import ROOT
+from ..progress import Progress
+from ..session import Stop
+from . import kobian, perform, report, rows
+from .plan import LEARNER_NAMES, Run, is_complete, plan, version
+from .replay import ReplayError
+
+GROUPS = (kobian,)
+EXPERIMENTS = tuple(name for group in GROUPS for name in group.EXPERIMENTS)
+
+
+def parse(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="./run paper", description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    add = parser.add_argument
+    add("--only", type=_experiments, default=EXPERIMENTS, metavar="K3[,K4]",
+        help=f"experiments, of {','.join(EXPERIMENTS)}; default all")  # fmt: skip
+    add("--seeds", type=_count, metavar="N", help="runs of each; default 5, with --quick 1")
+    add("--learner", nargs="+", choices=LEARNER_NAMES, default=LEARNER_NAMES,
+        help="imle: what ships, linear: IMLE as published, lwpr; default all")  # fmt: skip
+    add("--quick", action="store_true", help="few samples and one seed: a smoke check")
+    add("--any-version", action="store_true",
+        help="keep complete runs of other versions of the programs, too")  # fmt: skip
+    add("--out", type=Path, default=ROOT / "out/paper", help="folder; default %(default)s")
+    options = parser.parse_args(arguments)
+    options.seeds = options.seeds or (1 if options.quick else 5)
+    options.out = options.out.resolve()
+    return options
+
+
+def _experiments(text: str) -> tuple[str, ...]:
+    names = tuple(text.split(","))
+    for name in names:
+        if name not in EXPERIMENTS:
+            raise argparse.ArgumentTypeError(f"{name}: one of {','.join(EXPERIMENTS)} is wanted")
+    return names
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 1000:
+        raise argparse.ArgumentTypeError("a number from 1 to 1000 is wanted")
+    return value
+
+
+def folder_of(options: argparse.Namespace, run: Run) -> Path:
+    return options.out / "runs" / run.name
+
+
+def do_missing(options: argparse.Namespace, runs: list[Run]) -> None:
+    """Performs what is not complete."""
+    present = version()
+    missing = [run for run in runs if not is_complete(folder_of(options, run), run.inputs(present),
+                                                      options.any_version)]  # fmt: skip
+    print(f"paper: {len(runs)} runs, {len(runs) - len(missing)} of them complete", file=sys.stderr)
+    progress = Progress({
+        f"{run.name}/{phase}": seconds
+        for run in missing for phase, seconds in run.group.weights(run.settings).items()
+    })  # fmt: skip
+    stop = Stop()
+    for run in missing:
+        perform.perform(run, folder_of(options, run), present, progress, stop)
+
+
+def conclude(options: argparse.Namespace, runs: list[Run]) -> None:
+    """Summaries of the complete runs, the table, the report."""
+    present = version()
+    complete = [run for run in runs if is_complete(folder_of(options, run), run.inputs(present),
+                                                   options.any_version)]  # fmt: skip
+    measured = {run.name: perform.measure(run, folder_of(options, run)) for run in complete}
+    asked = [row for group in GROUPS for row in group.rows(tuple(options.learner))
+             if row.experiment in options.only]  # fmt: skip
+    table = rows.aggregate(asked, measured.values())
+    perform.write_json(options.out / "summary.json", table)
+    report.write(options.out, table, complete, options)
+    met = [row["met"] for row in table if row["met"] is not None]
+    print(f"report   {options.out / 'report.html'}, the same for print: report.pdf")
+    print(f"summary  {options.out / 'summary.json'}: {len(table)} rows; of {len(met)} with an aim"
+          f" {sum(met)} met")  # fmt: skip
+    for row in table:
+        if row["met"] is False:
+            value = "not measured" if row["mean"] is None else f"{row['mean']:.3g} {row['unit']}"
+            print(f"not met  {row['id']}: {value}, wanted {row['bar']:g}")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parse(arguments)
+    groups = [group for group in GROUPS if set(group.EXPERIMENTS) & set(options.only)]
+    runs = plan(groups, options.learner, options.seeds, options.quick)
+    options.out.mkdir(parents=True, exist_ok=True)
+    status = 0
+    try:
+        do_missing(options, runs)
+    except KeyboardInterrupt:
+        print("\npaper: stopped; the same command goes on with the runs that are missing",
+              file=sys.stderr)  # fmt: skip
+        status = 130
+    except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
+        print(f"\npaper: {error}; complete runs are kept", file=sys.stderr)
+        status = 1
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        conclude(options, runs)
+    except (ReplayError, OSError) as error:
+        print(f"paper: {error}", file=sys.stderr)
+        return 1
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,68 @@
+"""Does one run, and measures one that is done."""
+
+import json
+import shutil
+import time
+from pathlib import Path
+
+import numpy as np
+
+from .. import summary
+from ..experiment import Experiment
+from ..progress import Progress
+from ..record import read_log
+from ..session import Stop, session
+from .plan import Run, described, digest
+
+_HERE = Path(__file__).parent
+
+
+def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop) -> None:
+    """Leaves log and run.json; run.json, written last, says that the run is complete."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    start, phases, inputs = time.monotonic(), [], run.inputs(version)
+    options = {"seed": run.seed, "configurations": run.overlays, **run.group.programs()}
+    with session(folder, stop, **options) as (bus, clock):
+        experiment = Experiment(bus, clock, progress.part(run.name), phases)
+        run.group.perform(experiment, run.settings, run.seed)
+    description = {"group": run.group.NAME, "learner": run.learner, "seed": run.seed,
+                   "settings": run.settings, "phases": phases, "inputs": inputs,
+                   "wall_seconds": round(time.monotonic() - start, 1)}  # fmt: skip
+    write_json(folder / "run.json", description)
+
+
+def measure(run: Run, folder: Path) -> dict:
+    """The run's summary.json, made anew when run or analysis have changed."""
+    code = digest([*sorted(_HERE.glob("*.py")), *(_HERE.parent / name for name in
+                   ("metrics.py", "summary.py", "record.py"))])  # fmt: skip
+    description, path = described(folder), folder / "summary.json"
+    stamp = digest([folder / "run.json"])
+    had = _read(path)
+    if had and had["analysis"] == code and had["run"] == stamp:
+        return had
+    record = read_log(folder / "run.lcmlog")
+    numbers = run.group.analyse(record, description, folder / "series")
+    result = summary.rounded({
+        "learner": run.learner, "seed": run.seed, "version": description["inputs"]["version"],
+        "metrics": {key: float(np.float64(value)) for key, value in numbers.items()},
+        "robot_seconds": summary.robot_seconds(description),
+        "wall": summary.wall(record, description),
+        "run": stamp, "analysis": code,
+    })  # fmt: skip
+    write_json(path, result)
+    return result
+
+
+def _read(path: Path) -> dict | None:
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        return None
+
+
+def write_json(path: Path, value) -> None:
+    """Whole or not at all."""
+    aside = path.with_suffix(".new")
+    aside.write_text(json.dumps(value, indent=1) + "\n")
+    aside.replace(path)

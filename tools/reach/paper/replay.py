@@ -1,0 +1,143 @@
+"""A recorded stream of samples, learned once more by reach-eval: curves of error against samples.
+
+The learner is that of the daemon: its configuration files are translated to reach-eval's
+parameters, whose names are those of struct learner_config.
+"""
+
+import json
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from ..programs import BINARIES, ROOT
+from ..programs import LEARNERS as OVERLAYS
+
+LEARNERS = ("imle", *OVERLAYS)
+
+
+class ReplayError(Exception):
+    """One line for the user."""
+
+
+@dataclass(frozen=True)
+class Robot:
+    """Configuration of the daemon, and which of its options is the noise of each output."""
+
+    configuration: Path
+    noise: tuple[str, ...]
+
+
+KOBIAN = Robot(ROOT / "etc/kobian.yaml", ("noise_angle", "noise_angle", "noise_disparity"))
+
+# All others have the same names for both.
+_DAEMON_ONLY = {"kind", "queue", "quota"}
+# Those of other shape or unit, besides the noise of each output: standard deviations, degrees.
+_CONVERTED = {"reach", "reference"}
+
+
+def options(robot: Robot, learner: str) -> dict:
+    """The daemon's learner options, dotted, the overlay over the robot's."""
+    result = {}
+    for path in (robot.configuration, *([OVERLAYS[learner]] if learner in OVERLAYS else [])):
+        result |= _flat(yaml.safe_load(path.read_text())["learner"])
+    return result
+
+
+def _flat(nested: dict, prefix: str = "") -> dict:
+    result = {}
+    for name, value in nested.items():
+        if isinstance(value, dict):
+            result |= _flat(value, f"{prefix}{name}.")
+        else:
+            result[prefix + name] = value
+    return result
+
+
+def parameters(robot: Robot, given: dict) -> list[str]:
+    """The same as reach-eval's NAME=VALUE."""
+    is_lwpr = given["kind"] == "lwpr"
+    norms = [name.replace("noise", "lwpr.norm") for name in robot.noise]
+    result = {
+        "psi0": [_radians(name, given[name]) ** 2 for name in robot.noise],
+        "sigma0": float(given["reach"]) ** 2,
+        "reference": [float(np.radians(float(angle))) for angle in given["reference"]],
+    }
+    if is_lwpr:
+        result["lwpr.norm_out"] = [_radians(name, given[name]) for name in norms]
+    known = _DAEMON_ONLY | _CONVERTED | set(robot.noise) | set(norms)
+    for name, value in given.items():
+        if name not in known and (is_lwpr or not name.startswith("lwpr.")):
+            result[name] = value
+    return [f"{name}={_text(value)}" for name, value in result.items()]
+
+
+def _radians(name: str, value) -> float:
+    """In the unit of the messages."""
+    return float(np.radians(float(value))) if name.endswith("_angle") else float(value)
+
+
+def _text(value) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_text, value)) + "]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return ".inf" if value == float("inf") else str(value)
+
+
+def counts(lengths: list[int], early: int = 5, later: int = 20) -> np.ndarray:
+    """Numbers of samples to measure at: close together after each change of the tool."""
+    result, first = [], 0
+    for length in lengths:
+        near = min(length, 200)
+        result += [*range(first, first + near, early), *range(first + near, first + length, later)]
+        first += length
+    return np.array([n for n in result if n > 0] + [first])
+
+
+def curve(robot: Robot, learner: str, phases: list[np.ndarray], tests: dict[str, np.ndarray],
+          at: np.ndarray) -> dict[str, np.ndarray]:  # fmt: skip
+    """Teaches the phases' rows (inputs, outputs) in order.
+
+    By test set: RMSE of the solution closest to the set's output, a row for each count; and the
+    number of experts."""
+    given = options(robot, learner)
+    n_outputs = len(robot.noise)
+    n_inputs = phases[0].shape[1] - n_outputs
+    with tempfile.TemporaryDirectory(prefix="reach-replay-") as name:
+        folder = Path(name)
+        train = [_write(folder / f"train{i}.csv", rows) for i, rows in enumerate(phases)]
+        report = folder / "report.json"
+        command = [BINARIES / "reach-eval", "--learner", given["kind"], "--quiet",
+                   "--inputs", n_inputs, "--outputs", n_outputs, "--config", _empty(folder),
+                   "--train", ",".join(map(str, train)), "--at", ",".join(map(str, at)),
+                   "--json", report]  # fmt: skip
+        for key, rows in tests.items():
+            command += ["--test", f"{key}={_write(folder / f'{key}.csv', rows)}"]
+        command += [word for text in parameters(robot, given) for word in ("--param", text)]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if done.returncode != 0:
+            raise ReplayError(done.stderr.strip())
+        results = json.loads(report.read_text())["results"]
+    errors = {key: _array([r["test"][key]["closest"]["rmse"] for r in results]) for key in tests}
+    return {**errors, "experts": np.array([r["experts"] for r in results])}
+
+
+def _empty(folder: Path) -> Path:
+    """A configuration of its own keeps reach-eval from taking one that ships."""
+    path = folder / "nothing.yaml"
+    path.write_text("{}\n")
+    return path
+
+
+def _write(path: Path, rows: np.ndarray) -> Path:
+    np.savetxt(path, rows, "%.12g", ",")
+    return path
+
+
+def _array(rows: list) -> np.ndarray:
+    """Without an answer, no number."""
+    return np.array([[np.nan if v is None else v for v in row] for row in rows])

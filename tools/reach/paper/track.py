@@ -1,0 +1,61 @@
+"""The ball's true and measured image while targets are pursued, and the joints meanwhile."""
+
+from pathlib import Path
+
+import numpy as np
+
+from .. import summary
+from ..record import Record
+from . import series
+
+IMAGE = ("u_right", "v_right", "disparity")
+
+
+LEAD_IN = np.zeros((1, 3))  # before the targets that count: the ball comes to disparity 0
+
+
+def segments(record: Record, phase: dict) -> list[tuple[int, int]]:
+    """First and last instant of each target that counts; us."""
+    return summary.star_segments(record, phase)[len(LEAD_IN) :]
+
+
+def span(record: Record, phase: dict) -> tuple[int, int]:
+    """From the first target's presentation to the last one's end; us. A ball that was lost and
+    searched meanwhile is inside."""
+    counted = segments(record, phase)
+    return counted[0][0], counted[-1][1]
+
+
+def measured(record: Record, start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+    """Exposures (us) and rows [u, v, disparity] of what vision saw."""
+    rows = record.between("MARKER", start, end)
+    rows = rows[rows["seen"] == 1]
+    return rows["utime"], np.stack([rows[name] for name in IMAGE], axis=-1)
+
+
+def joints(record: Record, start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+    """Instants (us) and true joint angles, deg."""
+    rows = record.between("SIM_TRUTH", start, end)
+    rows = rows[rows["exposure"] == 0]
+    return rows["utime"], np.degrees(rows["position"][:, : rows["n_joints"][0]])
+
+
+def seconds(times: np.ndarray, start: int) -> np.ndarray:
+    return (times - start) * 1e-6
+
+
+def rms_jerk(times: np.ndarray, angles: np.ndarray) -> float:
+    """Root mean square of the third derivative over all joints and instants; deg/s3."""
+    step = np.median(np.diff(times)) * 1e-6
+    return float(np.sqrt(np.mean((np.diff(angles, 3, axis=0) / step**3) ** 2)))
+
+
+def write(record: Record, phase: dict, folder: Path, name: str) -> None:
+    """NAME.csv, NAME_measured.csv and NAME_joints.csv; times from the first target on."""
+    start, end = span(record, phase)
+    times, track = summary.true_track(record, start, end)
+    series.write(folder / f"{name}.csv", t=seconds(times, start), x=track)
+    times, seen = measured(record, start, end)
+    series.write(folder / f"{name}_measured.csv", t=seconds(times, start), x=seen)
+    times, angles = joints(record, start, end)
+    series.write(folder / f"{name}_joints.csv", t=seconds(times, start), q=angles)
