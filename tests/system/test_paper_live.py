@@ -12,7 +12,8 @@ from unittest import mock
 from reach.paper import __main__ as paper
 from reach.paper import kobian
 
-TINY = {"hand": 15, "tool": 15, "again": 3, "tests": 4, "star_seconds": 1.0}
+TINY = {"hand": 15, "tool": 15, "again": 3, "tests": 4, "turn_seconds": 2.0,
+        "star_seconds": 1.0}  # fmt: skip
 
 
 class Live(unittest.TestCase):

@@ -30,7 +30,7 @@ struct report {
     size_t memory;                   /* bytes of the learner */
     size_t train_rows[REQUEST_MOST]; /* of each file */
     int n_results;
-    struct report_result results[REQUEST_MOST];
+    struct report_result results[REQUEST_MOST_COUNTS];
 };
 
 void report_to_json(const struct report *report, FILE *out);

@@ -171,8 +171,8 @@ static int take_at(struct request *request, const char *text)
         unsigned long long number = strtoull(text, &end, 10);
         if (end == text || *text < '0' || *text > '9' || errno || (*end && *end != ','))
             return wrong("--at: whole numbers n1,n2,... are wanted, not '%s'", text);
-        if (request->n_at == REQUEST_MOST)
-            return wrong("--at: more than %d", REQUEST_MOST);
+        if (request->n_at == REQUEST_MOST_COUNTS)
+            return wrong("--at: more than %d", REQUEST_MOST_COUNTS);
         if (request->n_at > 0 && number <= request->at[request->n_at - 1])
             return wrong("--at: numbers must grow, %llu does not", number);
         request->at[request->n_at++] = (size_t)number;

@@ -7,7 +7,10 @@
 
 #include "daemon/learner.h"
 
-enum { REQUEST_MOST = 64 }; /* of each thing that may be given repeatedly */
+enum {
+    REQUEST_MOST = 64,         /* of each thing that may be given repeatedly */
+    REQUEST_MOST_COUNTS = 512, /* of --at: a curve wants many */
+};
 
 /* A file to be predicted, under the name that the report gives it. */
 struct request_set {
@@ -28,7 +31,7 @@ struct request {
     int n_train;
     const char *train[REQUEST_MOST];
     int n_at; /* 0: after all samples */
-    size_t at[REQUEST_MOST];
+    size_t at[REQUEST_MOST_COUNTS];
     int n_sets;
     struct request_set sets[REQUEST_MOST];
     const char *json; /* path, or "-" for standard output */

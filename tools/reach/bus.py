@@ -2,6 +2,7 @@
 
 import random
 import time
+from collections import deque
 from collections.abc import Callable
 
 import lcm
@@ -12,6 +13,7 @@ DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 RESEND_SECONDS = 2.0  # a request that nobody looked at is sent again, which changes nothing
 GIVE_UP_SECONDS = 30.0
 QUEUE = 200  # messages of a channel that may wait; a full queue drops the newest
+KEPT_SAMPLES = 100  # the newest
 
 
 class NoAnswerError(Exception):
@@ -32,7 +34,7 @@ class Bus:
         self.status: reach.status_t | None = None
         self.truth: reach.sim_truth_t | None = None
         self.marker: reach.marker_t | None = None
-        self.samples: list = []
+        self.samples: deque = deque(maxlen=KEPT_SAMPLES)
         self._roles: dict[int, int] = {}
         self._listen("REACH_STATUS", reach.status_t, lambda m: setattr(self, "status", m))
         self._listen("SIM_TRUTH", reach.sim_truth_t, lambda m: setattr(self, "truth", m))

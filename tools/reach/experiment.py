@@ -46,13 +46,25 @@ class Experiment:
         self._pursue(name, reach.request_t.COORDINATE, targets, period, learn)
 
     def _pursue(self, name: str, kind: int, targets: np.ndarray, period: float,
-                learn: bool) -> None:  # fmt: skip
+                learn: bool, from_centre: bool = True) -> None:  # fmt: skip
         rows = np.zeros((MAX_TARGETS, 3))
         rows[: len(targets)] = targets
         self._behave(
-            name, kind, learn=int(learn), count=1, n_targets=len(targets),
+            name, kind, learn=int(learn), count=int(from_centre), n_targets=len(targets),
             target=rows.tolist(), period=period,
         )  # fmt: skip
+        self._phases[-1]["targets"] = targets.tolist()
+
+    def reach_for(self, name: str, targets: np.ndarray, period: float, learn: bool) -> None:
+        """Brings the end-effector to targets, from where it is."""
+        self._pursue(name, reach.request_t.REACH, targets, period, learn, from_centre=False)
+
+    def save(self, number: int) -> None:
+        """Puts the model aside, in model.directory."""
+        self._ask(self._bus.prepare(reach.request_t.SAVE, count=number), f"save {number}")
+
+    def load(self, number: int) -> None:
+        self._ask(self._bus.prepare(reach.request_t.LOAD, count=number), f"load {number}")
 
     def take_tool(self, tool: int) -> None:
         """Changes the tool in the hand, 0 = none; the daemon is told nothing."""
@@ -63,8 +75,7 @@ class Experiment:
     def _behave(self, name: str, kind: int, **fields) -> None:
         request = self._bus.prepare(kind, **fields)
         start, wall = self._clock.now, time.monotonic()
-        if self._clock.ask_daemon(request) != reach.status_t.ACCEPTED:
-            raise ExperimentError(f"{name}: reachd refused the request, see reachd.log")
+        self._ask(request, name)
         self._follow(name)
         status = self._bus.status
         self._phases.append(
@@ -81,6 +92,10 @@ class Experiment:
         )
         took = time.monotonic() - wall
         self._progress.finish(name, f"done, {self._describe(status)}; took {took:.0f} s")
+
+    def _ask(self, request, name: str) -> None:
+        if self._clock.ask_daemon(request) != reach.status_t.ACCEPTED:
+            raise ExperimentError(f"{name}: reachd refused the request, see reachd.log")
 
     def _follow(self, name: str) -> None:
         """Until the behaviour has ended."""
@@ -102,12 +117,17 @@ class Experiment:
 
     def _describe(self, status: reach.status_t) -> str:
         text = f"{status.progress} of {status.progress_total}, {status.experts} experts"
+        in_metres = status.space == reach.status_t.CARTESIAN
         if status.error > 0:  # there is a target
-            return f"{text}, error {status.error:.1f} px"
+            error = f"{1e3 * status.error:.1f} mm" if in_metres else f"{status.error:.1f} px"
+            return f"{text}, error {error}"
         recent = [s for s in self._bus.samples if s.request_seq == status.request_seq]
         if recent := recent[-RECENT_SAMPLES:]:
-            measured = metrics.to_people([s.x[:3] for s in recent])
-            predicted = metrics.to_people([s.x_predicted[:3] for s in recent])
-            yaw, pitch, disparity = metrics.rmse(predicted, measured)
+            measured = np.array([s.x[:3] for s in recent])
+            predicted = np.array([s.x_predicted[:3] for s in recent])
+            if in_metres:
+                x, y, z = 1e3 * metrics.rmse(predicted, measured)
+                return f"{text}, error {x:.1f} {y:.1f} {z:.1f} mm"
+            yaw, pitch, disparity = metrics.rmse(*map(metrics.to_people, (predicted, measured)))
             return f"{text}, error {yaw:.2f} deg {pitch:.2f} deg {disparity:.1f} px"
         return text

@@ -27,13 +27,14 @@ def start(
     configurations: Sequence[Path] = (),
     realtime: bool = False,
     keep_images: bool = False,
+    channels: str | None = None,
     simrobot: tuple = (),
 ) -> None:
     """Starts recorder, reachd, simrobot, whose further options are `simrobot`, and vision where the
     robot has eyes.
 
-    reachd reads `configurations` over the robot's."""
-    channels = ".*" if keep_images else ALL_BUT_IMAGES
+    reachd reads `configurations` over the robot's. `channels`: a pattern of what is logged."""
+    channels = channels or (".*" if keep_images else ALL_BUT_IMAGES)
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
     etc, url = ROOT / "etc", ["--url", DEFAULT_URL]

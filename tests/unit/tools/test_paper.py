@@ -26,7 +26,8 @@ PHASES = ("learn_hand", "test_hand_500", "learn_tool", "test_tool_1000", "test_h
 RESTING = np.zeros((17, 3))
 TARGETS = {"frozen": RESTING, "coordinate": RESTING,
            "star": np.vstack([track.LEAD_IN, metrics.star_targets()])}  # fmt: skip
-SIZES = {"hand": 12, "tool": 12, "again": 12, "tests": 12, "star_seconds": 2.0}
+SIZES = {"hand": 12, "tool": 12, "again": 12, "tests": 12, "turn_seconds": 2.0,
+         "star_seconds": 2.0}  # fmt: skip
 
 
 def finish(run: plan.Run, folder: Path, version: str) -> None:

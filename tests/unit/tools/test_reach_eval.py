@@ -96,6 +96,13 @@ class Numbers(Fixture):
             np.testing.assert_allclose(off["rmse"], abs(offset), atol=1e-4)
             self.assertAlmostEqual(off["mean"], 0.035, delta=1e-4)
 
+    def test_a_curve_may_have_hundreds_of_counts(self):
+        train, test = self.write("a.csv", samples(400, 1)), self.write("t.csv", samples(5, 2))
+        counts = list(range(1, 401))
+        report = self.evaluate("--train", train, "--at", ",".join(map(str, counts)),
+                               "--test", f"t={test}")  # fmt: skip
+        self.assertEqual([result["at"] for result in report["results"]], counts)
+
     def test_rmse_is_the_root_of_the_mean_square(self):
         """Errors of unequal size, which a mean of absolute values would get wrong."""
         rows = samples(60, 5)

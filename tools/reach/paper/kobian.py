@@ -7,9 +7,9 @@ import numpy as np
 from .. import metrics
 from ..demo import BABBLE_SECONDS
 from ..experiment import Experiment
-from ..programs import LEARNERS, ROOT
+from ..programs import ROOT
 from ..record import Record
-from . import draw_babbling, draw_reaching, k1, k2, k3, k4, track
+from . import draw_babbling, draw_reaching, k1, k2, k3, k4, replay, track
 from .drawing import Shown
 from .rows import Row, of_learner
 
@@ -17,13 +17,15 @@ NAME = "kobian"
 EXPERIMENTS = ("K1", "K2", "K3", "K4")
 PARTS = (k1, k2, k3, k4)
 TUBE = 1  # the simulator's first tool
-COORDINATE_SECONDS = 2.0  # a target, section 7.2
 PREPARE_SECONDS = 4.0  # robot time before the first target, about; for the time left
 
-# Sizes: samples with hand, tool, hand; tests each time; seconds for each target of the STAR.
-_FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "star_seconds": 4.0}
-_QUICK = {"hand": 40, "tool": 40, "again": 15, "tests": 10, "star_seconds": 2.0}
-_QUICK_RIVAL = {"hand": 25, "tool": 25, "again": 5, "tests": 5, "star_seconds": 1.5}
+# Sizes: samples with hand, tool, hand; tests each time; seconds for each target of K2 and K3.
+_FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2.0,
+         "star_seconds": 4.0}  # fmt: skip
+_QUICK = {"hand": 30, "tool": 30, "again": 10, "tests": 8, "turn_seconds": 2.0,
+          "star_seconds": 2.0}  # fmt: skip
+_QUICK_RIVAL = {"hand": 15, "tool": 15, "again": 3, "tests": 3, "turn_seconds": 1.5,
+                "star_seconds": 1.0}  # fmt: skip
 
 
 def settings(quick: bool, learner: str) -> dict:
@@ -33,7 +35,7 @@ def settings(quick: bool, learner: str) -> dict:
 
 
 def overlays(learner: str) -> list[Path]:
-    return [LEARNERS[learner]] if learner in LEARNERS else []
+    return replay.overlays(replay.KOBIAN, learner)
 
 
 def configurations() -> list[Path]:
@@ -43,7 +45,7 @@ def configurations() -> list[Path]:
             etc / "robots/kobian.urdf"]  # fmt: skip
 
 
-def programs() -> dict:
+def programs(folder: Path) -> dict:
     """Options of programs.start()."""
     return {"robot": NAME}
 
@@ -51,7 +53,7 @@ def programs() -> dict:
 def weights(sizes: dict) -> dict[str, float]:
     """Robot seconds of each phase."""
     targets = len(track.LEAD_IN) + len(metrics.star_targets())
-    coordinate = PREPARE_SECONDS + targets * COORDINATE_SECONDS
+    coordinate = PREPARE_SECONDS + targets * sizes["turn_seconds"]
     star = PREPARE_SECONDS + targets * sizes["star_seconds"]
     samples = {"learn_hand": sizes["hand"], "learn_tool": sizes["tool"],
                "learn_again": sizes["again"]}  # fmt: skip
@@ -95,8 +97,8 @@ def _reach(experiment: Experiment, sizes: dict, ball: str) -> None:
     """K2 with the model frozen and learning, then K3."""
     turns = np.vstack([track.LEAD_IN, metrics.coordination_targets()])
     stars = np.vstack([track.LEAD_IN, metrics.star_targets()])
-    experiment.coordinate(f"frozen_{ball}", turns, COORDINATE_SECONDS, learn=False)
-    experiment.coordinate(f"coordinate_{ball}", turns, COORDINATE_SECONDS, learn=True)
+    experiment.coordinate(f"frozen_{ball}", turns, sizes["turn_seconds"], learn=False)
+    experiment.coordinate(f"coordinate_{ball}", turns, sizes["turn_seconds"], learn=True)
     experiment.star(f"star_{ball}", stars, sizes["star_seconds"])
 
 

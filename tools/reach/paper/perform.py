@@ -22,8 +22,11 @@ def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     start, phases, inputs = time.monotonic(), [], run.inputs(version)
-    options = {"seed": run.seed, "configurations": run.overlays, **run.group.programs()}
-    with session(folder, stop, **options) as (bus, clock):
+    options = run.group.programs(folder)
+    configurations = [*run.overlays, *options.pop("configurations", [])]
+    with session(
+        folder, stop, seed=run.seed, configurations=configurations, **options
+    ) as (bus, clock):  # fmt: skip
         experiment = Experiment(bus, clock, progress.part(run.name), phases)
         run.group.perform(experiment, run.settings, run.seed)
     description = {"group": run.group.NAME, "learner": run.learner, "seed": run.seed,

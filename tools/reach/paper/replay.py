@@ -13,10 +13,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from ..programs import BINARIES, ROOT
-from ..programs import LEARNERS as OVERLAYS
-
-LEARNERS = ("imle", *OVERLAYS)
+from ..programs import BINARIES, LEARNERS, ROOT
 
 
 class ReplayError(Exception):
@@ -25,13 +22,22 @@ class ReplayError(Exception):
 
 @dataclass(frozen=True)
 class Robot:
-    """Configuration of the daemon, and which of its options is the noise of each output."""
+    """Configuration of the daemon, that of other learners after it, and which of its options is the
+    noise of each output."""
 
     configuration: Path
+    overlays: dict[str, Path]
     noise: tuple[str, ...]
 
 
-KOBIAN = Robot(ROOT / "etc/kobian.yaml", ("noise_angle", "noise_angle", "noise_disparity"))
+KOBIAN = Robot(
+    ROOT / "etc/kobian.yaml", LEARNERS, ("noise_angle", "noise_angle", "noise_disparity")
+)
+ICUB = Robot(
+    ROOT / "etc/icub.yaml",
+    {name: ROOT / f"etc/icub-{name}.yaml" for name in LEARNERS},
+    ("noise_position",) * 3,
+)
 
 # All others have the same names for both.
 _DAEMON_ONLY = {"kind", "queue", "quota"}
@@ -42,9 +48,14 @@ _CONVERTED = {"reach", "reference"}
 def options(robot: Robot, learner: str) -> dict:
     """The daemon's learner options, dotted, the overlay over the robot's."""
     result = {}
-    for path in (robot.configuration, *([OVERLAYS[learner]] if learner in OVERLAYS else [])):
+    for path in (robot.configuration, *overlays(robot, learner)):
         result |= _flat(yaml.safe_load(path.read_text())["learner"])
     return result
+
+
+def overlays(robot: Robot, learner: str) -> list[Path]:
+    """Configuration of the daemon after the robot's: none for what ships."""
+    return [robot.overlays[learner]] if learner in robot.overlays else []
 
 
 def _flat(nested: dict, prefix: str = "") -> dict:
@@ -88,11 +99,12 @@ def _text(value) -> str:
     return ".inf" if value == float("inf") else str(value)
 
 
-def counts(lengths: list[int], early: int = 5, later: int = 20) -> np.ndarray:
-    """Numbers of samples to measure at: close together after each change of the tool."""
+def counts(lengths: list[int], early: int = 5, later: int = 20, window: int = 200) -> np.ndarray:
+    """Numbers of samples to measure at: in each phase every `early` of the first `window`, then
+    every `later`."""
     result, first = [], 0
     for length in lengths:
-        near = min(length, 200)
+        near = min(length, window)
         result += [*range(first, first + near, early), *range(first + near, first + length, later)]
         first += length
     return np.array([n for n in result if n > 0] + [first])
