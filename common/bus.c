@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
+#include <version.h>
 
 static const char hello_channel[] = "REACH_HELLO";
 #define URL_MOST 512
@@ -159,6 +160,11 @@ struct bus_claim {
     bool taken;
 };
 
+static void sign(reach_hello_t *hello)
+{
+    snprintf((char *)hello->revision, sizeof hello->revision, "%s", REACH_VERSION);
+}
+
 static void on_hello(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct bus_claim *claim = (struct bus_claim *)user;
@@ -173,6 +179,7 @@ static void on_hello(const lcm_recv_buf_t *message, const char *channel, void *u
             claim->taken = true;
     } else if (hello.instance != claim->instance) {
         hello.answer = 1;
+        sign(&hello);
         reach_hello_t_publish(claim->lcm, hello_channel, &hello);
     }
 }
@@ -188,6 +195,7 @@ int bus_claim_role(lcm_t *lcm, int8_t role, int wait_ms, struct bus_claim **resu
     claim->lcm = lcm;
     claim->role = role;
     hello.instance = claim->instance;
+    sign(&hello);
     if (!lcm_subscribe(lcm, hello_channel, on_hello, claim) ||
         reach_hello_t_publish(lcm, hello_channel, &hello) < 0 ||
         handle_until(lcm, &claim->taken, wait_ms) < 0)

@@ -28,6 +28,7 @@ const char help[] =
     "  --tool N            tool N in the hand from the start (default 0, none)\n"
     "  --snapshot FILE     write what both eyes see at the start as a PPM picture, and exit\n"
     "  --bench-eyes N      draw and encode N image pairs, print the time of each part, and exit\n"
+    "  --renderer          name what draws, or say what is missing, and exit\n"
     "  --verbose           more on stderr\n"
     "  --help, --version\n"
     "\n"
@@ -48,6 +49,7 @@ enum Choice {
     choice_snapshot,
     choice_tool,
     choice_bench_eyes,
+    choice_renderer,
     choice_verbose,
     choice_help,
     choice_version
@@ -67,6 +69,7 @@ const struct option rows[] = {{"config", required_argument, nullptr, choice_conf
                               {"snapshot", required_argument, nullptr, choice_snapshot},
                               {"tool", required_argument, nullptr, choice_tool},
                               {"bench-eyes", required_argument, nullptr, choice_bench_eyes},
+                              {"renderer", no_argument, nullptr, choice_renderer},
                               {"verbose", no_argument, nullptr, choice_verbose},
                               {"help", no_argument, nullptr, choice_help},
                               {"version", no_argument, nullptr, choice_version},
@@ -135,6 +138,9 @@ bool take(int choice, CommandLine *line)
         return true;
     case choice_help_options:
         line->task = Task::help_options;
+        return true;
+    case choice_renderer:
+        line->task = Task::renderer;
         return true;
     case choice_version:
         line->task = Task::version;

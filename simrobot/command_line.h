@@ -9,7 +9,7 @@
 namespace sim
 {
 
-enum class Task { run, help, help_options, version };
+enum class Task { run, help, help_options, renderer, version };
 
 struct CommandLine {
     Task task = Task::run;

@@ -7,6 +7,7 @@
 #include "common/log.h"
 #include "common/notify.h"
 #include "simrobot/command_line.h"
+#include "simrobot/egl_context.h"
 #include "simrobot/eye_tasks.h"
 #include "simrobot/eye_thread.h"
 #include "simrobot/lockstep.h"
@@ -117,6 +118,15 @@ bool start(const sim::CommandLine &line, std::string *error)
     return run(line, config, simulation, error);
 }
 
+int name_renderer()
+{
+    std::string error;
+    std::unique_ptr<sim::EglContext> context = sim::EglContext::create(&error);
+
+    puts(context ? context->renderer().c_str() : error.c_str());
+    return context ? 0 : 1;
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -138,6 +148,8 @@ int main(int argc, char **argv)
     case sim::Task::version:
         puts("simrobot " REACH_VERSION);
         return 0;
+    case sim::Task::renderer:
+        return name_renderer();
     case sim::Task::run:
         break;
     }

@@ -142,6 +142,7 @@ static int fill_until(const struct context *context)
 static const struct command looking_commands[] = {
     {"status", "", 0, CALL_STATUS, 0, NULL, "how the daemon is; --json for programs"},
     {"top", "", 0, CALL_TOP, 0, NULL, "the bus at a glance, until q is pressed; --once: one frame"},
+    {"doctor", "", 0, CALL_DOCTOR, 0, NULL, "what is wrong with this machine or the bus; --json"},
     {0}};
 
 static const struct command daemon_commands[] = {

@@ -13,7 +13,7 @@ struct command_settings {
     const char *url;  /* NULL: the usual bus */
     double timeout;   /* s to wait for an answer */
     bool wait;        /* until the behaviour has ended */
-    bool json;        /* status: as JSON */
+    bool json;        /* status, doctor: as JSON */
     bool once;        /* top: one frame */
     bool frozen;      /* do not learn */
     int64_t seed;     /* of babbling's random configurations */
@@ -26,6 +26,7 @@ void command_defaults(struct command_settings *settings);
 enum call_kind {
     CALL_STATUS,     /* show the daemon's status */
     CALL_TOP,        /* show what is on the bus, over and over */
+    CALL_DOCTOR,     /* examine machine and bus */
     CALL_DAEMON,     /* send `request` */
     CALL_SIMULATOR,  /* send `sim` */
     CALL_UNANSWERED, /* send `sim`, whose receiver ends before it could answer */

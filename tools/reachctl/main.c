@@ -1,6 +1,7 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
+#include "tools/reachctl/doctor.h"
 #include "tools/reachctl/show.h"
 #include "tools/reachctl/top.h"
 
@@ -19,7 +20,7 @@ static const char usage[] =
     "  --url URL       LCM bus; default $LCM_DEFAULT_URL, else this machine's own\n"
     "  --timeout S     wait this long for an answer; default 5\n"
     "  --wait          until what was asked for has ended\n"
-    "  --json          status as JSON\n"
+    "  --json          status or doctor as JSON\n"
     "  --once          top: one frame, then the end\n"
     "  --seed S        of babbling's random configurations; default 1\n"
     "  --frozen        use the model without teaching it\n"
@@ -202,6 +203,8 @@ static int carry_out(struct call *call, const struct command_settings *settings,
 
     if (call->kind == CALL_TOP)
         return top_run(settings->url, settings->once, settings->timeout, error, error_size);
+    if (call->kind == CALL_DOCTOR)
+        return doctor_run(settings->url, settings->json, error, error_size);
     client = client_create(settings->url, error, error_size);
     if (!client)
         return -1;
