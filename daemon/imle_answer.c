@@ -16,7 +16,9 @@ void imle_new_query(struct imle *m, const double *x)
     memset(m->target, 0, sizeof m->target);
     if (x)
         memcpy(m->target, x, (size_t)m->D * sizeof *x);
-    memset(m->answered, 0, ((size_t)block_of(m->config.capacity) + 1) * sizeof *m->answered);
+    size_t blocks = (size_t)block_of(m->config.capacity) + 1;
+    memset(m->answered, 0, blocks * sizeof *m->answered);
+    memset(m->levered, 0, blocks * sizeof *m->levered);
 }
 
 size_t imle_regression_block(int p, int D)
@@ -52,6 +54,11 @@ void imle_regression_write(struct imle *m, int j)
     }
 }
 
+static const double *block_with(const struct imle *m, int j)
+{
+    return m->regression + (size_t)block_of(j) * imle_regression_block(m->p, m->D);
+}
+
 /* The answers of expert j and its seven neighbours, unless they are known already. */
 static void answer_block(struct imle *m, int j)
 {
@@ -60,11 +67,26 @@ static void answer_block(struct imle *m, int j)
     if (m->answered[block])
         return;
     m->answered[block] = true;
-    m->kernels->regress(m->p, m->D,
-                        m->regression + (size_t)block * imle_regression_block(m->p, m->D), m->phi,
-                        m->target, m->leverages + (size_t)block * KERNEL_LANES,
+    m->kernels->regress(m->p, m->D, block_with(m, j), m->phi, m->target,
                         m->outputs + (size_t)(block * m->D) * KERNEL_LANES,
                         m->misfits + (size_t)block * KERNEL_LANES);
+}
+
+/* Their leverages; apart, for far fewer experts are asked how sure they are than what they say. */
+static void lever_block(struct imle *m, int j)
+{
+    int block = block_of(j);
+
+    if (m->levered[block])
+        return;
+    m->levered[block] = true;
+    m->kernels->leverages(m->p, block_with(m, j), m->phi,
+                          m->leverages + (size_t)block * KERNEL_LANES);
+}
+
+void imle_forget_answers(struct imle *m, int j)
+{
+    m->answered[block_of(j)] = m->levered[block_of(j)] = false;
 }
 
 static void center_features(struct imle *m, int j)
@@ -112,13 +134,21 @@ double imle_expert_misfit(struct imle *m, int j)
     return sum;
 }
 
+void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input)
+{
+    if (m->config.features == LEARNER_LINEAR) /* dphi is diagonal */
+        for (int i = 0; i < m->d; i++)
+            by_input[i] = m->dphi[i * m->p + i] * by_feature[i];
+    else
+        m->kernels->apply(m->p, m->d, m->dphi, by_feature, by_input);
+}
+
 void imle_expert_slope(struct imle *m, int j)
 {
     const double *W = m->W + (size_t)j * (size_t)m->p * (size_t)m->D;
 
     for (int i = 0; i < m->D; i++)
-        m->kernels->apply(m->p, m->d, m->dphi, W + (size_t)i * (size_t)m->p,
-                          m->slope + (size_t)i * (size_t)m->d);
+        imle_to_inputs(m, W + (size_t)i * (size_t)m->p, m->slope + (size_t)i * (size_t)m->d);
 }
 
 void imle_expert_whiten(struct imle *m, int j)
@@ -135,7 +165,7 @@ void imle_expert_whiten(struct imle *m, int j)
 double imle_expert_leverage(struct imle *m, int j)
 {
     if (m->small) {
-        answer_block(m, j);
+        lever_block(m, j);
         return m->leverages[j];
     }
     imle_expert_whiten(m, j);

@@ -104,7 +104,7 @@ static void first_densities(struct imle *m, int j)
     refresh_root(m, j, sqrt(w + m->d + 2.0), G);
     refresh_densities(m, j);
     imle_regression_write(m, j);
-    m->answered[j / KERNEL_LANES] = false; /* its neighbours may have answered before it came */
+    imle_forget_answers(m, j); /* its neighbours may have answered before it came */
 }
 
 static void first_regression(struct imle *m, int j, const double *x, int parent)

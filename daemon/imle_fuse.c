@@ -79,9 +79,11 @@ static void average(struct imle *m, struct fusion *fusion, struct learner_soluti
         if (answer->cluster != fusion->cluster)
             continue;
         answer->share = share_of(m, fusion, answer);
+        const double *psi = psi_of(m, answer);
         for (int i = 0; i < m->D; i++) {
-            fusion->sum_precision[i] += answer->share / psi_of(m, answer)[i];
-            sum[i] += answer->share / psi_of(m, answer)[i] * answer->xhat[i];
+            double precision = answer->share / psi[i];
+            fusion->sum_precision[i] += precision;
+            sum[i] += precision * answer->xhat[i];
         }
         if (answer->share > fusion->largest_share) {
             fusion->largest_share = answer->share;

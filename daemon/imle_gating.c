@@ -28,13 +28,26 @@ static double *lane_of(const struct imle *m, int j)
            (size_t)(j % KERNEL_LANES);
 }
 
-void imle_scan(struct imle *m, const double *z)
+void imle_scan_distances(struct imle *m, const double *z)
 {
-    int n = blocks(m->M);
+    m->kernels->distances(m->d, blocks(m->M), m->lanes, z, m->q);
+}
 
-    m->kernels->distances(m->d, n, m->lanes, z, m->q);
-    m->kernels->log_student(n * KERNEL_LANES, m->q, m->gate.per_a, m->gate.exponent,
-                            m->gate.log_norm, m->log_t);
+/* log t of n experts from `first` on, both multiples of eight. */
+static void densities(struct imle *m, int first, int n)
+{
+    m->kernels->log_student(n, m->q + first, m->gate.per_a + first, m->gate.exponent + first,
+                            m->gate.log_norm + first, m->log_t + first);
+}
+
+void imle_density_near(struct imle *m, int j)
+{
+    densities(m, j / KERNEL_LANES * KERNEL_LANES, KERNEL_LANES);
+}
+
+void imle_densities(struct imle *m)
+{
+    densities(m, 0, blocks(m->M) * KERNEL_LANES);
 }
 
 void imle_lanes_write(struct imle *m, int j, double scale, const double *G)

@@ -75,6 +75,7 @@ static size_t take_scan(struct imle *m, struct arena *arena)
         {SLOT(q), numbers(n)},
         {SLOT(gate.log_peak), numbers(n)},
         {SLOT(answered), n / KERNEL_LANES + 1},
+        {SLOT(levered), n / KERNEL_LANES + 1},
         {SLOT(leverages), numbers(n)},
         {SLOT(misfits), numbers(n)},
         {SLOT(outputs), numbers(n * (size_t)m->D)},

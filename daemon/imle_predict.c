@@ -23,7 +23,8 @@ static bool look_at(struct imle *m, const double *z)
         if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
             return false;
     feature_map_derivative(m->map, z, m->phi, m->dphi);
-    imle_scan(m, z);
+    imle_scan_distances(m, z);
+    imle_densities(m);
     return true;
 }
 
@@ -67,7 +68,7 @@ void imle_gamma_slope(struct imle *m, struct imle_answer *answer)
     if (answer->sloped)
         return;
     imle_expert_whiten(m, answer->expert);
-    m->kernels->apply(m->p, m->d, m->dphi, m->gain, answer->dgamma);
+    imle_to_inputs(m, m->gain, answer->dgamma);
     for (int i = 0; i < m->d; i++)
         answer->dgamma[i] *= 2.0 * m->config.noise_share;
     answer->sloped = true;

@@ -106,7 +106,8 @@ struct imle {
     int whitened;                /* the expert that white and gain are of, or -1 */
     double leverage;             /* of the same: |white|^2 */
     struct whitener_scratch add; /* p each */
-    bool *answered;              /* each block of 8 experts: whether the next two are known */
+    bool *answered;              /* each block of 8 experts: whether outputs, misfits are known */
+    bool *levered;               /* the same for leverages */
     double *leverages;           /* M, up to a multiple of 8 */
     double *misfits;             /* the same */
     double target[LEARNER_MAX_OUTPUTS];
@@ -161,8 +162,12 @@ void imle_expert_refresh(struct imle *m, int j);
 size_t imle_lanes_block(int d);
 size_t imle_lanes_experts(const struct learner_config *config);
 
-/* m->q and m->log_t of all experts at z. */
-void imle_scan(struct imle *m, const double *z);
+/* m->q of all experts at z. */
+void imle_scan_distances(struct imle *m, const double *z);
+
+/* m->log_t of expert j (and its neighbours), or of all, from m->q. */
+void imle_density_near(struct imle *m, int j);
+void imle_densities(struct imle *m);
 
 /* Puts expert j's nu and the root `scale` times the packed rows of G into its lane. */
 void imle_lanes_write(struct imle *m, int j, double scale, const double *G);
@@ -181,6 +186,9 @@ void imle_new_query(struct imle *m, const double *x);
 /* Numbers of one block of m->regression. */
 size_t imle_regression_block(int p, int D);
 
+/* What expert j and its neighbours answered to this query is no longer true. */
+void imle_forget_answers(struct imle *m, int j);
+
 /* Expert j has changed: its lane, where lanes are in use. */
 void imle_regression_write(struct imle *m, int j);
 
@@ -189,6 +197,9 @@ void imle_expert_output(struct imle *m, int j, double *xhat);
 
 /* sum (x - xhat)^2 / Psi of expert j for the x of imle_new_query(). */
 double imle_expert_misfit(struct imle *m, int j);
+
+/* by_input[d] = dphi' by_feature[p]: from derivatives by features to those by inputs. */
+void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input);
 
 /* d xhat / d z of expert j at the derivative m->dphi: W dphi', D x d row-major, into m->slope. */
 void imle_expert_slope(struct imle *m, int j);

@@ -91,12 +91,13 @@ static void lay_out_answers(struct imle *m)
             s->x[i][a] = s->weight[i][a] = 0.0;
 }
 
-/* (xhat_j - center)' R_j^-1 (xhat_j - center) of the first n answers. */
+/* (xhat_j - center)' R_j^-1 (xhat_j - center) of the first n answers; s->nearest falls to it. */
 static void deviations(const struct imle *m, int n, const double *center, double *deviation)
 {
     struct imle_split_scratch *s = m->split;
 
-    m->kernels->deviations(n, m->D, IMLE_MOST_ANSWERS, s->x[0], s->weight[0], center, deviation);
+    m->kernels->deviations(n, m->D, IMLE_MOST_ANSWERS, s->x[0], s->weight[0], center, deviation,
+                           s->nearest);
 }
 
 /* Deviations of the first n answers from every center, and the nearest of each answer. */
@@ -104,12 +105,10 @@ static void all_deviations(struct imle *m, int n)
 {
     struct imle_split_scratch *s = m->split;
 
+    for (int a = 0; a < n; a++)
+        s->nearest[a] = INFINITY;
     for (int k = 0; k < s->n; k++)
         deviations(m, n, s->center[k], s->p[k]);
-    memcpy(s->nearest, s->p[0], (size_t)n * sizeof(double));
-    for (int k = 1; k < s->n; k++)
-        for (int a = 0; a < n; a++)
-            s->nearest[a] = s->p[k][a] < s->nearest[a] ? s->p[k][a] : s->nearest[a];
 }
 
 /* Mean of the first n answers, each weighted by R_j^-1 and its probability of belonging to cluster

@@ -40,12 +40,15 @@ struct kernels {
     void (*log_student)(int n, const double *q, const double *per_a, const double *exponent,
                         const double *log_norm, double *log_t);
 
-    /* Answers of 8 experts with few features. A block holds rows of 8 numbers, one lane an expert:
-     * phibar (p), the whitener's packed rows, then for each output 1 / Psi, xbar and W (p); aligned
-     * to 64 bytes. leverage[8] = |G (phi - phibar)|^2, xhat[i * 8] = xbar + W (phi - phibar),
-     * misfit[8] = sum (x - xhat)^2 / Psi. */
+    /* Of 8 experts with few features. A block holds rows of 8 numbers, one lane an expert: phibar
+     * (p), the whitener's packed rows, then for each output 1 / Psi, xbar and W (p); aligned to 64
+     * bytes. leverage[8] = |G (phi - phibar)|^2. */
+    void (*leverages)(int p, const double *block, const double *phi, double *leverage);
+
+    /* The same experts' answers: xhat[i * 8] = xbar + W (phi - phibar), misfit[8] = sum (x -
+     * xhat)^2 / Psi. */
     void (*regress)(int p, int n_outputs, const double *block, const double *phi, const double *x,
-                    double *leverage, double *xhat, double *misfit);
+                    double *xhat, double *misfit);
 
     /* out = a + factor b; returns the largest. */
     double (*bounds)(int n, const double *a, double factor, const double *b, double *out);
@@ -60,9 +63,9 @@ struct kernels {
 
     /* Clustering of answers; n is a multiple of 8, and weights are zero where there is no answer.
      * deviation[a] = sum_i (x[i][a] - center[i])^2 weight[i][a], rows of x and weight `stride`
-     * apart. */
+     * apart; nearest[a] falls to it where it is smaller. */
     void (*deviations)(int n, int n_outputs, size_t stride, const double *x, const double *weight,
-                       const double *center, double *deviation);
+                       const double *center, double *deviation, double *nearest);
 
     /* p holds deviations, and becomes p[a] = exp(-(p[a] - nearest[a]) / 2); sum[a] += p[a]. */
     void (*memberships)(int n, double *p, const double *nearest, double *sum);

@@ -114,15 +114,30 @@ static void distances(int d, int n_blocks, const double *block, const double *z,
     }
 }
 
-static void regress(int p, int n_outputs, const double *block, const double *phi, const double *x,
-                    double *leverage, double *xhat, double *misfit)
+/* Where row i of a packed lower triangle begins. */
+static inline size_t row_of(int i)
+{
+    return (size_t)i * ((size_t)i + 1) / 2;
+}
+
+static void leverages(int p, const double *block, const double *phi, double *leverage)
 {
     vec offset[LEARNER_MAX_INPUTS][PARTS];
     struct lanes sum;
     const vec *row = subtract_rows(p, phi, (const vec *)block, offset);
 
-    row = squared_length(p, row, offset, &sum);
+    (void)squared_length(p, row, offset, &sum);
     memcpy(leverage, sum.part, sizeof sum.part);
+}
+
+static void regress(int p, int n_outputs, const double *block, const double *phi, const double *x,
+                    double *xhat, double *misfit)
+{
+    vec offset[LEARNER_MAX_INPUTS][PARTS];
+    struct lanes sum;
+    const vec *row = subtract_rows(p, phi, (const vec *)block, offset);
+
+    row += row_of(p) * PARTS;
     clear(&sum);
     for (int i = 0; i < n_outputs; i++) {
         const vec *per_psi = row;
@@ -163,12 +178,6 @@ static void log_student(int n, const double *restrict q, const double *restrict 
 {
     for (int j = 0; j < n; j++)
         log_t[j] = log_norm[j] - exponent[j] * elementary_log1p(q[j] * per_a[j]);
-}
-
-/* Where row i of a packed lower triangle begins. */
-static inline size_t row_of(int i)
-{
-    return (size_t)i * ((size_t)i + 1) / 2;
 }
 
 /* y of `count` rows from `row` on; columns before `whole`, a multiple of 8, in lanes, the others
@@ -258,7 +267,7 @@ static void rotate(int n, int first, double *G, const double *keep, const double
 
 static void deviations(int n, int n_outputs, size_t stride, const double *restrict x,
                        const double *restrict weight, const double *restrict center,
-                       double *restrict deviation)
+                       double *restrict deviation, double *restrict nearest)
 {
     for (int a = 0; a < n; a++)
         deviation[a] = 0.0;
@@ -267,6 +276,8 @@ static void deviations(int n, int n_outputs, size_t stride, const double *restri
             double off = x[(size_t)i * stride + (size_t)a] - center[i];
             deviation[a] += off * off * weight[(size_t)i * stride + (size_t)a];
         }
+    for (int a = 0; a < n; a++)
+        nearest[a] = deviation[a] < nearest[a] ? deviation[a] : nearest[a];
 }
 
 static void memberships(int n, double *restrict p, const double *restrict nearest,
@@ -309,6 +320,7 @@ const struct kernels KERNELS_TABLE = {
     .add = add,
     .distances = distances,
     .log_student = log_student,
+    .leverages = leverages,
     .regress = regress,
     .bounds = bounds,
     .whiten = whiten,

