@@ -10,7 +10,11 @@ foreach(program reachd reachctl reach-eval reach-bench)
 endforeach()
 if(REACH_TOOLS)
   install(PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/reach-lcm-setup
-          DESTINATION ${CMAKE_INSTALL_BINDIR})
+          ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/reach-spy DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(TARGET reach_lcmtypes_java)
+    install(FILES ${CMAKE_BINARY_DIR}/java/reach_types.jar
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/reach)
+  endif()
 endif()
 foreach(program simrobot vision)
   if(TARGET ${program})
