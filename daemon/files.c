@@ -92,13 +92,13 @@ int files_sync_directory(const struct files *files, const char *directory)
     return result;
 }
 
-static bool is_free(const struct files *files, const char *path)
+bool files_exists(const struct files *files, const char *path)
 {
     int file = files->open(path, O_RDONLY);
 
     if (file >= 0)
         files->close(file);
-    return file < 0 && errno == ENOENT;
+    return file >= 0 || errno != ENOENT;
 }
 
 int files_set_aside(const struct files *files, const char *path, char *aside, size_t size)
@@ -107,7 +107,7 @@ int files_set_aside(const struct files *files, const char *path, char *aside, si
         int length = snprintf(aside, size, "%s.damaged-%d", path, number);
         if (length < 0 || (size_t)length >= size)
             break;
-        if (is_free(files, aside))
+        if (!files_exists(files, aside))
             return files->rename(path, aside);
     }
     errno = ENAMETOOLONG;

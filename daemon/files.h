@@ -34,6 +34,9 @@ ssize_t files_read_all(const struct files *files, int file, void *bytes, size_t 
 /* Names that were made, changed or removed are on the disk. */
 int files_sync_directory(const struct files *files, const char *directory);
 
+/* Whether it can be opened, or at least is there. */
+bool files_exists(const struct files *files, const char *path);
+
 /* Renames to PATH.damaged-1, or the first such number that is free: evidence is kept, and nothing
  * is written over. Writes the new name into `aside`. Returns 0, or -1. */
 int files_set_aside(const struct files *files, const char *path, char *aside, size_t size);

@@ -33,10 +33,11 @@ static int64_t number_of(const char *name, const char **suffix)
     return errno == 0 ? number : -1;
 }
 
-/* The snapshots next to a number, and the greatest number of any file. */
+/* What is next to a number, -1 = nothing, and the greatest number of any file. */
 struct neighbours {
     int64_t of;
-    int64_t below, above; /* -1 = none */
+    int64_t below; /* snapshot */
+    int64_t above; /* snapshot or journal */
     int64_t greatest;
 };
 
@@ -46,13 +47,16 @@ static void look_at(void *user, const char *name)
     const char *suffix = NULL;
     int64_t number = number_of(name, &suffix);
 
+    if (number < 0)
+        return;
     if (number > found->greatest)
         found->greatest = number;
-    if (number < 0 || strcmp(suffix, snapshot_suffix) != 0)
-        return;
-    if (number < found->of && number > found->below)
+    bool snapshot = strcmp(suffix, snapshot_suffix) == 0;
+    bool journal = strcmp(suffix, journal_suffix) == 0;
+    if (snapshot && number < found->of && number > found->below)
         found->below = number;
-    if (number > found->of && (found->above < 0 || number < found->above))
+    if ((snapshot || journal) && number > found->of &&
+        (found->above < 0 || number < found->above))
         found->above = number;
 }
 
@@ -92,11 +96,25 @@ static void learn(void *user, const struct journal_sample *sample)
     learner_update(user, sample->z, sample->x);
 }
 
+/* A generation whose making was cut short: its snapshot has no name, its journal no sample yet. */
+static bool never_began(const struct generations *generations, int64_t number)
+{
+    char snapshot[MODEL_PATH_MOST];
+    char journal[MODEL_PATH_MOST];
+
+    path_of(generations, number, snapshot_suffix, snapshot);
+    path_of(generations, number, journal_suffix, journal);
+    return !files_exists(generations->files, snapshot) &&
+           journal_is_empty(generations->files, journal);
+}
+
 static int replay(struct work *work, int64_t number)
 {
     struct journal_reading reading = {.model = work->model->hash, .number = work->model->samples};
     char path[MODEL_PATH_MOST];
 
+    if (never_began(work->generations, number))
+        return 0;
     path_of(work->generations, number, journal_suffix, path);
     if (journal_read(work->generations->files, path, &reading, learn, work->learner, work->reason,
                      sizeof work->reason))

@@ -106,6 +106,19 @@ void journal_close(struct journal *journal)
     journal->file = -1;
 }
 
+bool journal_is_empty(const struct files *files, const char *path)
+{
+    unsigned char bytes[sizeof(struct header) + 1];
+    int file = files->open(path, O_RDONLY);
+    ssize_t got;
+
+    if (file < 0)
+        return errno == ENOENT;
+    got = files_read_all(files, file, bytes, sizeof bytes);
+    files->close(file);
+    return got >= 0 && got < (ssize_t)sizeof bytes;
+}
+
 static const char *header_fault(const struct header *header, ssize_t got,
                                 const struct journal_reading *reading)
 {

@@ -46,6 +46,9 @@ int journal_commit(struct journal *journal);
 
 void journal_close(struct journal *journal);
 
+/* Whether it holds no sample, not even a part of one. */
+bool journal_is_empty(const struct files *files, const char *path);
+
 struct journal_reading {
     uint64_t model;  /* in: hash of the model that it must continue */
     uint64_t number; /* in: number that the model stands at; out: after the last sample */
