@@ -15,9 +15,9 @@
 /* There is one of them at a time. */
 struct fake_disk {
     long operations; /* so far, of those that change something */
-    long dies_at;    /* from this operation on nothing works, and that one is half done; -1 = never */
-    long fails_at;   /* this operation fails; -1 = none */
-    int error;       /* what failing operations say */
+    long dies_at;  /* from this operation on nothing works, and that one is half done; -1 = never */
+    long fails_at; /* this operation fails; -1 = none */
+    int error;     /* what failing operations say */
     size_t capacity; /* bytes in all files */
     bool read_only;
     bool short_writes;

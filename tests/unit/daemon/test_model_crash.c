@@ -1,6 +1,6 @@
 /* The model is never lost: the process or the power ends at every operation on the disk, the disk
- * fails or fills up at every operation, every byte is damaged. What the next start finds must be, to
- * the byte, what an uninterrupted learner is at that sample, and have every sample that was
+ * fails or fills up at every operation, every byte is damaged. What the next start finds must be,
+ * to the byte, what an uninterrupted learner is at that sample, and have every sample that was
  * reported as stored; or the start must refuse and change nothing. */
 #include "common/log.h"
 #include "fake_disk.h"
@@ -125,7 +125,8 @@ START_TEST(power_off_that_tears_what_was_not_synced)
 }
 END_TEST
 
-/* One operation fails; afterwards the disk is well. Nothing may be lost when the power goes. */
+/* One operation fails; afterwards the disk is well, until the power goes soon after or in the end.
+ */
 START_TEST(a_failure_at_every_operation)
 {
     const int errors[] = {ENOSPC, EIO};
@@ -140,6 +141,7 @@ START_TEST(a_failure_at_every_operation)
             int64_t stored;
             fake_disk_reset(seed);
             fake_disk.fails_at = at;
+            fake_disk.dies_at = at + 1 + (long)(random_bits(&seed) % 16);
             fake_disk.error = errors[kind];
             stored = two_lives();
             fake_disk_crash(FAKE_DISK_POWER_OFF);
@@ -264,6 +266,17 @@ static int flip_every_byte(int64_t stored, const char *name)
     return refused;
 }
 
+static const char *newest_snapshot(void)
+{
+    const char *newest = "";
+    const char *name;
+
+    for (int i = 0; (name = fake_disk_name(i)); i++)
+        if (strstr(name, "/current-") && strstr(name, ".imle") && strcmp(name, newest) > 0)
+            newest = name;
+    return newest;
+}
+
 START_TEST(a_bit_flipped_anywhere)
 {
     int64_t stored;
@@ -287,6 +300,31 @@ START_TEST(a_bit_flipped_anywhere)
 }
 END_TEST
 
+/* What was learned before a load does not lead to what was loaded. */
+START_TEST(a_damaged_snapshot_after_a_load_is_refused)
+{
+    struct store_bench bench;
+
+    setup();
+    fake_disk_reset(seed);
+    bench = store_bench_create(&settings);
+    work(&bench, 10);
+    ck_assert(model_store_begin_save(bench.store, 1));
+    work(&bench, 12);
+    ck_assert_int_eq(model_store_poll(bench.store, &bench.learner), MODEL_STORE_DONE);
+    ck_assert(model_store_begin_load(bench.store, 1));
+    store_bench_serve(&bench);
+    ck_assert_int_eq(model_store_poll(bench.store, &bench.learner), MODEL_STORE_DONE);
+    ck_assert_int_eq(work(&bench, 6), 16);
+    store_bench_close(&bench);
+    size_t size = 0;
+    const char *name = newest_snapshot();
+    fake_disk_bytes(name, &size)[size / 2] ^= 1;
+    ck_assert(!start_or_refuse(16, name, "damaged after a load"));
+    ck_assert_ptr_nonnull(strstr(error, name));
+}
+END_TEST
+
 /* The damaged snapshot that was rebuilt stays as evidence, whatever is written afterwards. */
 START_TEST(evidence_is_kept)
 {
@@ -299,11 +337,7 @@ START_TEST(evidence_is_kept)
     setup();
     fake_disk_reset(seed);
     stored = two_lives();
-    const char *newest = "";
-    for (int i = 0; (name = fake_disk_name(i)); i++)
-        if (strstr(name, ".imle") && strcmp(name, newest) > 0)
-            newest = name;
-    bytes = fake_disk_bytes(newest, &size);
+    bytes = fake_disk_bytes(newest_snapshot(), &size);
     ck_assert_uint_le(size, sizeof damaged);
     bytes[size / 2] ^= 4;
     memcpy(damaged, bytes, size);
@@ -351,6 +385,7 @@ int main(void)
                                   a_read_only_disk,
                                   a_torn_last_record_is_cut_off,
                                   a_bit_flipped_anywhere,
+                                  a_damaged_snapshot_after_a_load_is_refused,
                                   evidence_is_kept,
                                   a_missing_file};
 
