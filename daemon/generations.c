@@ -55,8 +55,7 @@ static void look_at(void *user, const char *name)
     bool journal = strcmp(suffix, journal_suffix) == 0;
     if (snapshot && number < found->of && number > found->below)
         found->below = number;
-    if ((snapshot || journal) && number > found->of &&
-        (found->above < 0 || number < found->above))
+    if ((snapshot || journal) && number > found->of && (found->above < 0 || number < found->above))
         found->above = number;
 }
 
