@@ -1,4 +1,6 @@
-/* Motor babbling (paper section 7.1): random configurations, fixation, one sample at each. */
+/* Motor babbling: random configurations, fixation, one sample at each (paper section 7.1); or,
+ * where the end-effector is measured wherever it is, every measurement along the way (section 6.1).
+ */
 #include "behaviour.h"
 
 #include <reach_status_t.h>
@@ -13,6 +15,12 @@ static void next_goal(struct behaviour *behaviour, struct control *control)
                                          config->babble_max.value[i]);
     babble->deadline = control->now + (int64_t)(config->babble_timeout * 1e6);
     behaviour->progress.phase = REACH_STATUS_T_MOVE;
+}
+
+static void gather(struct behaviour *behaviour, struct control *control)
+{
+    control_gather(control, sight_pair_frames(control->config));
+    behaviour->progress.done++;
 }
 
 static void babble_start(struct behaviour *behaviour, const reach_request_t *request,
@@ -30,6 +38,13 @@ static void move(struct behaviour *behaviour, struct control *control)
     bool there = control_arm_to(control, babble->goal);
 
     control_gaze(control, false);
+    if (!control->config->space.fixates) {
+        if (control->sight->new_frame)
+            gather(behaviour, control);
+        if (there || control->now >= babble->deadline)
+            next_goal(behaviour, control);
+        return;
+    }
     if (there || control->now >= babble->deadline) {
         babble->deadline = control->now + (int64_t)(control->config->fixation_timeout * 1e6);
         behaviour->progress.phase = REACH_STATUS_T_FIXATE;
@@ -45,8 +60,7 @@ static void fixate(struct behaviour *behaviour, struct control *control)
     gaze = control_gaze(control, true);
     progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
     if (sight_fixated(control->sight)) {
-        control_gather(control, control->config->fixation_frames);
-        progress->done++;
+        gather(behaviour, control);
         next_goal(behaviour, control);
     } else if (control->now >= behaviour->babble.deadline) {
         progress->skipped++;

@@ -36,6 +36,8 @@ enum gaze_state control_gaze(struct control *control, bool may_search)
 {
     int n_arm = config_arm_joints(control->config);
 
+    if (control->config->space.n_head == 0)
+        return sight_seen(control->sight, control->now) ? GAZE_ON_MARKER : GAZE_WAITING;
     return gaze_step(control->gaze, control->sight, control->now, control->q + n_arm, may_search,
                      control->velocity + n_arm);
 }
@@ -46,8 +48,7 @@ void control_task_velocity(struct control *control, const double *x_velocity)
     const double *jacobian = select_jacobian(control->selection);
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
-        .n_outputs = VISUAL_DIMENSIONS,
-        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
+        .n_outputs = SPACE_DIMENSIONS,
         .threshold = config->singular_threshold,
         .damping_max = config->damping_max,
         .secondary_gain = config->secondary_gain,
@@ -55,6 +56,7 @@ void control_task_velocity(struct control *control, const double *x_velocity)
 
     if (!jacobian)
         return;
+    memcpy(taskspace.scale, config->space.scale, sizeof config->space.scale);
     memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
     memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
     taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);
@@ -63,13 +65,13 @@ void control_task_velocity(struct control *control, const double *x_velocity)
 void control_approach(struct control *control, const double *target, double gain,
                       double *x_velocity)
 {
-    double error[VISUAL_DIMENSIONS];
+    double error[SPACE_DIMENSIONS];
 
     memcpy(control->target, target, sizeof control->target);
     control->has_target = true;
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+    for (int row = 0; row < SPACE_DIMENSIONS; row++)
         error[row] = gain * (target[row] - control->sight->carried[row]);
-    visual_to_task(control->config->pixels_per_radian, error, x_velocity);
+    space_to_task(&control->config->space, error, x_velocity);
 }
 
 void control_gather(struct control *control, int n)

@@ -32,10 +32,10 @@ struct control {
     struct selection *selection;
     struct gaze *gaze;
 
-    double velocity[MAX_JOINTS];      /* wanted, all joints, rad/s */
-    bool has_target;                  /* `target` holds */
-    double target[VISUAL_DIMENSIONS]; /* where the marker is to be seen, px */
-    bool has_pair;                    /* `pair` was gathered in this tick */
+    double velocity[MAX_JOINTS];     /* wanted, all joints, rad/s */
+    bool has_target;                 /* `target` holds */
+    double target[SPACE_DIMENSIONS]; /* where it is to be, in what is seen: px or m */
+    bool has_pair;                   /* `pair` was gathered in this tick */
     struct pair pair;
 };
 
@@ -55,12 +55,12 @@ struct babble {
 /* Arm follows head (section 7.2), or arm reaches under a resting head (section 7.3). */
 struct targets {
     int n;
-    double target[MAX_TARGETS][VISUAL_DIMENSIONS]; /* px */
-    int64_t period;                                /* us */
-    int64_t deadline;                              /* us */
+    double target[MAX_TARGETS][SPACE_DIMENSIONS]; /* px or m */
+    int64_t period;                               /* us */
+    int64_t deadline;                             /* us */
     bool go_to_centre;
-    double head_goal[HEAD_JOINTS];      /* rad */
-    double setpoint[VISUAL_DIMENSIONS]; /* px, where a reaching arm is to be by now */
+    double head_goal[HEAD_JOINTS];     /* rad */
+    double setpoint[SPACE_DIMENSIONS]; /* px or m, where a reaching arm is to be by now */
 };
 
 struct behaviour;
@@ -103,8 +103,9 @@ enum gaze_state control_gaze(struct control *control, bool may_search);
 /* Arm velocities for a wanted task velocity (rad/s, rad/s, px/s) by eq. 4; none without a model. */
 void control_task_velocity(struct control *control, const double *x_velocity);
 
-/* Feedback in image terms (eq. 5 and 13): `gain` (1/s) times what is left between the marker and
- * `target` (px), as a task velocity (rad/s, rad/s, px/s). `target` becomes this tick's target. */
+/* Feedback in terms of what is seen (eq. 5 and 13): `gain` (1/s) times what is left between the
+ * marker and `target` (px), as a task velocity (rad/s, rad/s, px/s). `target` becomes this tick's
+ * target. */
 void control_approach(struct control *control, const double *target, double gain,
                       double *x_velocity);
 

@@ -1,7 +1,7 @@
 #include "config.h"
 
 #include "daemon/learner_rows.h"
-#include "visual.h"
+#include "space.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,13 +37,13 @@ static const struct option_row table[] = {
 
     LIST("arm.min", arm_min, "deg", NULL, -360, 360, "lower limit of each arm joint"),
     LIST("arm.max", arm_max, "deg", NULL, -360, 360, "upper limit of each arm joint"),
-    LIST("head.min", head_min, "deg", NULL, -180, 180, "lower limit of head yaw, pitch"),
-    LIST("head.max", head_max, "deg", NULL, -180, 180, "upper limit of head yaw, pitch"),
+    LIST("head.min", head_min, "deg", "[]", -180, 180, "lower limit of head yaw, pitch"),
+    LIST("head.max", head_max, "deg", "[]", -180, 180, "upper limit of head yaw, pitch"),
 
-    NUMBER("eyes.pixels_per_radian", pixels_per_radian, "px", NULL, 1, 1e5,
+    NUMBER("eyes.pixels_per_radian", pixels_per_radian, "px", "0", 0, 1e5,
            "shift of the image when the head turns: relation of eq. 11 and eq. 12"),
     NUMBER("eyes.stale", eyes_stale, "s", "0.2", 0.01, 10,
-           "age of the last seen marker at which it no longer counts as seen"),
+           "age of the last seen marker (or measured end-effector) at which it counts as lost"),
 
     NUMBER("motion.arm_velocity", arm_velocity, "deg/s", "40", 0.1, 360, "greatest wanted"),
     NUMBER("motion.arm_acceleration", arm_acceleration, "deg/s2", "200", 1, 1e4, "greatest wanted"),
@@ -95,6 +95,8 @@ static const struct option_row table[] = {
     NUMBER("babble.timeout", babble_timeout, "s", "10", 0.1, 600,
            "time for a move after which the arm fixates where it is"),
 
+    CHOICE("task.space", task_space, "visual", "visual|cartesian",
+           "what is learned: the head that fixates a marker, or a measured position"),
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
            "time constant with which reaching goes over to a new target, 0 = at once"),
@@ -109,6 +111,8 @@ static const struct option_row table[] = {
            "task rows of angles are divided by this before norms, eq. 8 and eq. 9"),
     NUMBER("task.scale_disparity", scale_disparity, "px", "40", 1e-6, 1e4,
            "the task row of disparity is divided by this, likewise"),
+    NUMBER("task.scale_position", scale_position, "m", "0.2", 1e-6, 1e4,
+           "the rows of a Cartesian task space are divided by this, likewise"),
 
     CHOICE("learner.kind", learner_kind, "imle", "imle|null|lwpr", "learning algorithm"),
     LEARNER_ROWS(LEARNER_ROW),
@@ -116,6 +120,8 @@ static const struct option_row table[] = {
            "standard deviation of the angles about an expert: square root of Psi_0"),
     NUMBER("learner.noise_disparity", learner_noise_disparity, "px", "3", 1e-6, 1000,
            "the same for the disparity"),
+    NUMBER("learner.noise_position", learner_noise_position, "m", "0.01", 1e-6, 100,
+           "the same for the rows of a Cartesian task space"),
     NUMBER("learner.reach", learner_reach, "rad", "0.5", 1e-6, 100,
            "standard deviation of an expert's inputs: square root of sigma_0"),
     LIST("learner.reference", learner_reference, "deg", NULL, -360, 360,
@@ -125,6 +131,8 @@ static const struct option_row table[] = {
            "LWPR: unit of the angles in the metric's cost"),
     NUMBER("learner.lwpr.norm_disparity", lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
            "LWPR: unit of the disparity, likewise"),
+    NUMBER("learner.lwpr.norm_position", lwpr_norm_position, "m", "0.01", 1e-9, 1e3,
+           "LWPR: unit of a Cartesian position, likewise"),
     COUNT("learner.queue", learner_queue, "256", 1, 65536, "training samples that may wait"),
     COUNT("learner.quota", learner_quota, "4", 1, 1000, "samples learned in one tick of lockstep"),
 
@@ -151,7 +159,7 @@ const struct option_row *config_table(void)
 static void preset(struct config *config)
 {
     memset(config, 0, sizeof *config);
-    config->learner = learner_config_default(4, VISUAL_DIMENSIONS);
+    config->learner = learner_config_default(4, SPACE_DIMENSIONS);
     config->learner.features = LEARNER_POLYNOMIAL;
     config->learner.clustering = LEARNER_CLUSTER_LEADER;
     config->learner.inherit = true;
@@ -170,9 +178,8 @@ void config_print_options(FILE *out)
 static int check_range(const char *name, const struct option_list *min,
                        const struct option_list *max, char *error, size_t error_size)
 {
-    if (min->n == 0 || min->n != max->n) {
-        snprintf(error, error_size, "%s.min and %s.max must have as many entries, at least one",
-                 name, name);
+    if (min->n != max->n) {
+        snprintf(error, error_size, "%s.min and %s.max must have as many entries", name, name);
         return -1;
     }
     for (int i = 0; i < min->n; i++)
@@ -229,8 +236,19 @@ static int check_motion(const struct config *config, char *error, size_t error_s
 
 static int check_sizes(const struct config *config, char *error, size_t error_size)
 {
-    if (config_head_joints(config) != 2) {
-        snprintf(error, error_size, "head.min and head.max must name two joints, yaw and pitch");
+    if (config_head_joints(config) != config->space.n_head) {
+        snprintf(error, error_size,
+                 config->space.n_head > 0
+                     ? "head.min and head.max must name two joints, yaw and pitch"
+                     : "head.min and head.max: a Cartesian task space has no head");
+        return -1;
+    }
+    if (config->space.kind == SPACE_VISUAL && config->pixels_per_radian < 1) {
+        snprintf(error, error_size, "eyes.pixels_per_radian must be given, 1 or more");
+        return -1;
+    }
+    if (config_arm_joints(config) == 0) {
+        snprintf(error, error_size, "arm.min and arm.max name no joint");
         return -1;
     }
     if (config_joints(config) > OPTION_MAX_LIST) {
@@ -260,6 +278,42 @@ static int check_learner(const struct config *config, char *error, size_t error_
     return -1;
 }
 
+static void set_visual(struct config *config)
+{
+    const double per_pixel = 1 / config->pixels_per_radian;
+
+    config->space = (struct space){
+        .kind = SPACE_VISUAL,
+        .n_head = 2,
+        .fixates = true,
+        .unit = {-per_pixel, per_pixel, 1},
+        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
+        .noise = {config->learner_noise_angle, config->learner_noise_angle,
+                  config->learner_noise_disparity},
+        .norm = {config->lwpr_norm_angle, config->lwpr_norm_angle, config->lwpr_norm_disparity},
+        .largest = 10000, /* px: no image is so large */
+    };
+}
+
+static void set_cartesian(struct config *config)
+{
+    config->space = (struct space){.kind = SPACE_CARTESIAN, .largest = 100 /* m: no arm is */};
+    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
+        config->space.unit[row] = 1;
+        config->space.scale[row] = config->scale_position;
+        config->space.noise[row] = config->learner_noise_position;
+        config->space.norm[row] = config->lwpr_norm_position;
+    }
+}
+
+static void set_space(struct config *config)
+{
+    if (config->task_space == SPACE_CARTESIAN)
+        set_cartesian(config);
+    else
+        set_visual(config);
+}
+
 int config_load(struct config *config, const char *const *paths, int n_paths,
                 const char *const *overrides, int n_overrides, char *error, size_t error_size)
 {
@@ -268,6 +322,7 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
     preset(config);
     if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
         return -1;
+    set_space(config);
     if (check_range("arm", &config->arm_min, &config->arm_max, reason, sizeof reason) ||
         check_range("head", &config->head_min, &config->head_max, reason, sizeof reason) ||
         check_range("babble", &config->babble_min, &config->babble_max, reason, sizeof reason) ||
@@ -314,8 +369,10 @@ struct learner_config config_learner(const struct config *config)
 
     learner.kind = (enum learner_kind)config->learner_kind;
     learner.n_inputs = config_arm_joints(config);
-    learner.psi0[0] = learner.psi0[1] = square(config->learner_noise_angle);
-    learner.psi0[2] = square(config->learner_noise_disparity);
+    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
+        learner.psi0[row] = square(config->space.noise[row]);
+        learner.lwpr.norm_out[row] = config->space.norm[row];
+    }
     for (int i = 0; i < learner.n_inputs; i++) {
         learner.reference[i] = config->learner_reference.value[i];
         learner.scale[i] = config->learner_scale;
@@ -323,7 +380,5 @@ struct learner_config config_learner(const struct config *config)
     }
     if (learner.lwpr.max_projections > learner.n_inputs)
         learner.lwpr.max_projections = learner.n_inputs;
-    learner.lwpr.norm_out[0] = learner.lwpr.norm_out[1] = config->lwpr_norm_angle;
-    learner.lwpr.norm_out[2] = config->lwpr_norm_disparity;
     return learner;
 }

@@ -4,6 +4,7 @@
 
 #include "common/options.h"
 #include "learner.h"
+#include "space.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -39,26 +40,29 @@ struct config {
     struct option_list babble_min, babble_max; /* rad */
     double babble_gain, babble_tolerance, babble_timeout;
 
+    int task_space;                         /* enum space_kind */
     double task_gain;                       /* K_m of eq. 4, 1/s */
     double task_smoothing;                  /* of the set-point of reaching, s */
     double follow_gain;                     /* k_c of eq. 13, 1/s */
     double secondary_gain;                  /* K_s of eq. 4, rad/s for a gradient of 1 */
     double singular_threshold, damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */
-    double scale_angle, scale_disparity;    /* what counts as one in each task row */
+    double scale_angle, scale_disparity, scale_position; /* what counts as one in a task row */
 
     struct learner_config learner; /* its scalar rows; config_learner() adds the rest: */
     int learner_kind;
-    double learner_noise_angle, learner_noise_disparity; /* sqrt(Psi0) */
-    double learner_reach;                                /* sqrt(sigma0), rad */
-    struct option_list learner_reference;                /* rad */
-    double learner_scale;                                /* rad */
-    double lwpr_norm_angle, lwpr_norm_disparity;         /* rad, px */
+    double learner_noise_angle, learner_noise_disparity, learner_noise_position; /* sqrt(Psi0) */
+    double learner_reach;                                            /* sqrt(sigma0), rad */
+    struct option_list learner_reference;                            /* rad */
+    double learner_scale;                                            /* rad */
+    double lwpr_norm_angle, lwpr_norm_disparity, lwpr_norm_position; /* rad, px, m */
     int learner_queue, learner_quota;
 
     char model_directory[OPTION_MAX_TEXT];
     bool model_automatic;
     int model_snapshot, model_keep;
     double model_sync; /* s */
+
+    struct space space; /* the rows above that depend on task.space, as it wants them */
 };
 
 /* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks

@@ -13,9 +13,9 @@ static void present(struct behaviour *behaviour, struct control *control, const 
 {
     const struct config *config = control->config;
     const double *q_head = control->q + config_arm_joints(config);
-    double turn[VISUAL_DIMENSIONS];
+    double turn[SPACE_DIMENSIONS];
 
-    visual_to_task(config->pixels_per_radian, target, turn);
+    space_to_task(&config->space, target, turn);
     for (int i = 0; i < HEAD_JOINTS; i++)
         behaviour->targets.head_goal[i] =
             fmin(fmax(q_head[i] + turn[i], config->head_min.value[i] + config->margin),
@@ -27,8 +27,8 @@ static void follow(struct control *control, double disparity)
 {
     const struct config *config = control->config;
     const double *head_velocity = control->velocity + config_arm_joints(config);
-    const double centre[VISUAL_DIMENSIONS] = {0, 0, disparity};
-    double x_velocity[VISUAL_DIMENSIONS];
+    const double centre[SPACE_DIMENSIONS] = {0, 0, disparity};
+    double x_velocity[SPACE_DIMENSIONS];
 
     control_approach(control, centre, config->follow_gain, x_velocity);
     for (int i = 0; i < HEAD_JOINTS; i++)

@@ -2,10 +2,13 @@
 
 #include "common/bus.h"
 #include "common/log.h"
+#include "observation.h"
 #include "realtime.h"
 
 #include <errno.h>
 #include <pthread.h>
+#include <reach_end_effector_t.h>
+#include <reach_marker_t.h>
 #include <semaphore.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -13,7 +16,7 @@
 #include <time.h>
 
 #define STATES 64
-#define MARKERS 64
+#define OBSERVATIONS 64
 #define REQUESTS 16
 #define OUTGOING 256
 #define REPORTS 4
@@ -34,7 +37,7 @@ struct outgoing {
 
 struct daemon_bus {
     lcm_t *lcm;
-    struct mailbox *states, *markers, *requests, *outgoing, *reports;
+    struct mailbox *states, *observations, *requests, *outgoing, *reports;
     sem_t arrived; /* posted for every message that the loop may wait for */
     sem_t to_send; /* posted for every outgoing message */
     _Atomic bool ending;
@@ -49,7 +52,7 @@ size_t daemon_bus_memory(void)
 {
     return arena_footprint(sizeof(struct daemon_bus)) +
            mailbox_memory(sizeof(struct received_state), STATES) +
-           mailbox_memory(sizeof(reach_marker_t), MARKERS) +
+           mailbox_memory(sizeof(struct observation), OBSERVATIONS) +
            mailbox_memory(sizeof(reach_request_t), REQUESTS) +
            mailbox_memory(sizeof(struct outgoing), OUTGOING) +
            mailbox_memory(sizeof(reach_status_t), REPORTS);
@@ -89,10 +92,40 @@ static void on_marker(const lcm_recv_buf_t *message, const char *channel, void *
     reach_marker_t marker;
 
     (void)channel;
-    if (DECODE(reach_marker_t, message, &marker))
-        deliver(bus, bus->markers, &marker);
-    else
+    if (!DECODE(reach_marker_t, message, &marker)) {
         refuse(bus);
+        return;
+    }
+    deliver(bus, bus->observations,
+            &(struct observation){.utime = marker.utime,
+                                  .seq = marker.seq,
+                                  .seen = marker.seen,
+                                  .value = {marker.u_right, marker.v_right, marker.disparity}});
+}
+
+static void on_effector(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct daemon_bus *bus = user;
+    reach_end_effector_t effector;
+    struct observation observation = {.seen = 1};
+
+    (void)channel;
+    if (!DECODE(reach_end_effector_t, message, &effector)) {
+        refuse(bus);
+        return;
+    }
+    observation.utime = effector.utime;
+    observation.seq = effector.seq;
+    memcpy(observation.value, effector.position, sizeof observation.value);
+    deliver(bus, bus->observations, &observation);
+}
+
+/* The sense of the task space alone: a robot may have both. */
+static bool subscribe_to_sense(struct daemon_bus *bus, enum space_kind space)
+{
+    if (space == SPACE_CARTESIAN)
+        return lcm_subscribe(bus->lcm, "END_EFFECTOR", on_effector, bus) != NULL;
+    return lcm_subscribe(bus->lcm, "MARKER", on_marker, bus) != NULL;
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
@@ -113,15 +146,15 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
 {
     bus->states = mailbox_create(arena, sizeof(struct received_state), STATES);
-    bus->markers = mailbox_create(arena, sizeof(reach_marker_t), MARKERS);
+    bus->observations = mailbox_create(arena, sizeof(struct observation), OBSERVATIONS);
     bus->requests = mailbox_create(arena, sizeof(reach_request_t), REQUESTS);
     bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
     bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
-    return bus->states && bus->markers && bus->requests && bus->outgoing && bus->reports;
+    return bus->states && bus->observations && bus->requests && bus->outgoing && bus->reports;
 }
 
-struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *error,
-                                     size_t error_size)
+struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
+                                     char *error, size_t error_size)
 {
     struct daemon_bus *bus = arena_alloc(arena, sizeof *bus);
 
@@ -131,8 +164,7 @@ struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *erro
     }
     bus->lcm = lcm;
     if (sem_init(&bus->arrived, 0, 0) || sem_init(&bus->to_send, 0, 0) ||
-        !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) ||
-        !lcm_subscribe(lcm, "MARKER", on_marker, bus) ||
+        !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) || !subscribe_to_sense(bus, space) ||
         !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus)) {
         snprintf(error, error_size, "cannot subscribe to the bus");
         return NULL;
@@ -206,9 +238,9 @@ struct mailbox *daemon_bus_states(struct daemon_bus *bus)
     return bus->states;
 }
 
-struct mailbox *daemon_bus_markers(struct daemon_bus *bus)
+struct mailbox *daemon_bus_observations(struct daemon_bus *bus)
 {
-    return bus->markers;
+    return bus->observations;
 }
 
 struct mailbox *daemon_bus_requests(struct daemon_bus *bus)
@@ -285,6 +317,6 @@ bool daemon_bus_take_emergency(struct daemon_bus *bus)
 int64_t daemon_bus_refused(const struct daemon_bus *bus)
 {
     return atomic_load_explicit(&bus->malformed, memory_order_relaxed) +
-           (int64_t)(mailbox_refused(bus->states) + mailbox_refused(bus->markers) +
+           (int64_t)(mailbox_refused(bus->states) + mailbox_refused(bus->observations) +
                      mailbox_refused(bus->requests) + mailbox_refused(bus->outgoing));
 }

@@ -21,9 +21,10 @@ struct received_state {
 
 size_t daemon_bus_memory(void);
 
-/* Subscribes on `lcm`, which stays the caller's. Returns NULL with one line in `error`. */
-struct daemon_bus *daemon_bus_create(lcm_t *lcm, struct arena *arena, char *error,
-                                     size_t error_size);
+/* Subscribes on `lcm`, which stays the caller's, to the sense of this task space among others.
+ * Returns NULL with one line in `error`. */
+struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
+                                     char *error, size_t error_size);
 
 /* Starts the two threads, in real time with a priority over ordinary load. Returns 0, or -1 with
  * one line in `error`. */
@@ -32,10 +33,10 @@ int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t
 /* Sends what still waits, then ends and joins the threads. */
 void daemon_bus_stop(struct daemon_bus *bus);
 
-/* What has come, for the loop thread: states oldest first, markers and requests likewise. */
-struct mailbox *daemon_bus_states(struct daemon_bus *bus);   /* struct received_state */
-struct mailbox *daemon_bus_markers(struct daemon_bus *bus);  /* reach_marker_t */
-struct mailbox *daemon_bus_requests(struct daemon_bus *bus); /* reach_request_t */
+/* What has come, for the loop thread: states oldest first, observations and requests likewise. */
+struct mailbox *daemon_bus_states(struct daemon_bus *bus);       /* struct received_state */
+struct mailbox *daemon_bus_observations(struct daemon_bus *bus); /* struct observation */
+struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* reach_request_t */
 
 /* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);

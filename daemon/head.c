@@ -4,12 +4,12 @@
 
 static const double arrived = 0.02; /* rad; a place of the search counts as looked at */
 
-void head_fixate(const struct config *config, const double image[VISUAL_DIMENSIONS],
+void head_fixate(const struct config *config, const double image[SPACE_DIMENSIONS],
                  double velocity[HEAD_JOINTS])
 {
-    double turn[VISUAL_DIMENSIONS];
+    double turn[SPACE_DIMENSIONS];
 
-    visual_to_task(config->pixels_per_radian, image, turn);
+    space_to_task(&config->space, image, turn);
     for (int i = 0; i < HEAD_JOINTS; i++)
         velocity[i] = config->head_gain * turn[i];
 }

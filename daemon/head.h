@@ -4,14 +4,14 @@
 
 #include "config.h"
 #include "random.h"
-#include "visual.h"
+#include "space.h"
 
 #include <stdint.h>
 
 #define HEAD_JOINTS 2 /* yaw, pitch */
 
 /* Equation 11: head velocities (rad/s) that bring the marker at `image` (px) to the centre. */
-void head_fixate(const struct config *config, const double image[VISUAL_DIMENSIONS],
+void head_fixate(const struct config *config, const double image[SPACE_DIMENSIONS],
                  double velocity[HEAD_JOINTS]);
 
 /* Head velocities (rad/s) that turn the head at q (rad) to `goal` by its encoders. */

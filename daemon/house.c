@@ -30,14 +30,14 @@ static void say_what_is_awaited(struct house *house)
 {
     int64_t now = bus_monotonic_us();
 
-    if (loop_waits(house->loop) != LOOP_WAITS_FOR_MARKER) {
+    if (loop_waits(house->loop) != LOOP_WAITS_FOR_OBSERVATION) {
         house->waiting_since = 0;
         return;
     }
     if (!house->waiting_since)
         house->waiting_since = now;
     if (now - house->waiting_since > patience_us && now - house->said > patience_us) {
-        log_warning("waiting for the marker that is due: is vision running?");
+        log_warning("waiting for the marker (or END_EFFECTOR) that is due: is vision running?");
         house->said = now;
     }
 }

@@ -6,7 +6,6 @@
 
 static const double range_slack = 0.35;     /* rad; an encoder may read a little beyond a stop */
 static const double velocity_most = 100;    /* rad/s; nothing on a robot turns faster */
-static const double image_most = 10000;     /* px */
 static const double period_most = 3600;     /* s */
 static const int32_t count_most = 10000000; /* samples of one request */
 static const int32_t model_number_most = 9999;
@@ -26,25 +25,32 @@ bool inputs_state_ok(const struct config *config, const reach_robot_state_t *sta
     return true;
 }
 
-bool inputs_marker_ok(const reach_marker_t *marker)
+static bool sensible(const struct config *config, const double value[SPACE_DIMENSIONS])
 {
-    return marker->utime > 0 && fabs(marker->u_right) <= image_most &&
-           fabs(marker->v_right) <= image_most && fabs(marker->disparity) <= image_most;
+    /* Written so that a NaN fails. */
+    for (int axis = 0; axis < SPACE_DIMENSIONS; axis++)
+        if (!(fabs(value[axis]) <= config->space.largest))
+            return false;
+    return true;
 }
 
-static bool targets_ok(const reach_request_t *request)
+bool inputs_observation_ok(const struct config *config, const struct observation *observation)
+{
+    return observation->utime > 0 && sensible(config, observation->value);
+}
+
+static bool targets_ok(const struct config *config, const reach_request_t *request)
 {
     if (request->n_targets < 1 || request->n_targets > MAX_TARGETS ||
         !(request->period > 0 && request->period <= period_most))
         return false;
     for (int i = 0; i < request->n_targets; i++)
-        for (int axis = 0; axis < 3; axis++)
-            if (!(fabs(request->target[i][axis]) <= image_most))
-                return false;
+        if (!sensible(config, request->target[i]))
+            return false;
     return request->count == 0 || request->count == 1;
 }
 
-bool inputs_request_ok(const reach_request_t *request)
+bool inputs_request_ok(const struct config *config, const reach_request_t *request)
 {
     switch (request->kind) {
     case REACH_REQUEST_T_STOP:
@@ -54,8 +60,9 @@ bool inputs_request_ok(const reach_request_t *request)
     case REACH_REQUEST_T_BABBLE:
         return request->count >= 1 && request->count <= count_most;
     case REACH_REQUEST_T_COORDINATE:
+        return config->space.n_head > 0 && targets_ok(config, request);
     case REACH_REQUEST_T_REACH:
-        return targets_ok(request);
+        return targets_ok(config, request);
     case REACH_REQUEST_T_SAVE:
     case REACH_REQUEST_T_LOAD:
         return request->count >= 0 && request->count <= model_number_most;

@@ -5,8 +5,8 @@
 #define REACH_INPUTS_H
 
 #include "config.h"
+#include "observation.h"
 
-#include <reach_marker_t.h>
 #include <reach_request_t.h>
 #include <reach_robot_state_t.h>
 #include <stdbool.h>
@@ -14,11 +14,11 @@
 /* The robot's joints: as many as configured, finite, not absurdly beyond their range. */
 bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state);
 
-/* A marker: finite, and inside any image that could be. */
-bool inputs_marker_ok(const reach_marker_t *marker);
+/* An observation: finite, and where the task space could have it. */
+bool inputs_observation_ok(const struct config *config, const struct observation *observation);
 
-/* The values of a request: counts, targets, period. Whether it fits the daemon's state is not
- * looked at. */
-bool inputs_request_ok(const reach_request_t *request);
+/* The values of a request: counts, targets, period, and that the task space knows its kind. Whether
+ * it fits the daemon's state is not looked at. */
+bool inputs_request_ok(const struct config *config, const reach_request_t *request);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "common/bus.h"
 #include "confine.h"
-#include "due_markers.h"
+#include "due_observations.h"
 #include "grid.h"
 #include "realtime.h"
 #include "timing.h"
@@ -31,7 +31,7 @@ struct loop {
     struct tick_outputs outputs;
     struct received_state received; /* newest state taken from the mailbox */
     bool any_state;
-    struct due_markers due; /* lockstep */
+    struct due_observations due; /* lockstep */
 
     struct timing compute, wakeup;
     int64_t overruns, slips;
@@ -150,26 +150,32 @@ static void wait_for_message(struct loop *loop, enum loop_wait waits)
     watchdog_feed(loop->watchdog, NULL);
 }
 
-/* Waits for the marker that is due with the state. Returns false when the loop is to end. */
-static bool wait_for_marker(struct loop *loop, int64_t due)
+/* The observation that the state says is due with it, of the sense that this task space has. */
+static int64_t due_with(const struct loop *loop, const reach_robot_state_t *state)
+{
+    return loop->config->space.kind == SPACE_CARTESIAN ? state->effector_due : state->vision_due;
+}
+
+/* Waits for the observation of this instant. Returns false when the loop is to end. */
+static bool wait_for_observation(struct loop *loop, int64_t due)
 {
     struct tick_inputs *inputs = &loop->inputs;
-    reach_marker_t marker;
+    struct observation observation;
 
     for (;;) {
-        while (mailbox_take(daemon_bus_markers(loop->bus), &marker))
-            due_markers_add(&loop->due, &marker);
-        if (due_markers_ready(&loop->due, due))
+        while (mailbox_take(daemon_bus_observations(loop->bus), &observation))
+            due_observations_add(&loop->due, &observation);
+        if (due_observations_ready(&loop->due, due))
             break;
         if (ending(loop))
             return false;
-        wait_for_message(loop, LOOP_WAITS_FOR_MARKER);
+        wait_for_message(loop, LOOP_WAITS_FOR_OBSERVATION);
     }
     set_waits(loop, LOOP_RUNS);
-    inputs->n_markers = 0;
-    while (inputs->n_markers < TICK_MAX_MARKERS &&
-           due_markers_take(&loop->due, due, &inputs->marker[inputs->n_markers]))
-        inputs->n_markers++;
+    inputs->n_observations = 0;
+    while (inputs->n_observations < TICK_MAX_OBSERVATIONS &&
+           due_observations_take(&loop->due, due, &inputs->observation[inputs->n_observations]))
+        inputs->n_observations++;
     return true;
 }
 
@@ -200,8 +206,8 @@ static void step_lockstep(struct loop *loop)
     int64_t begin;
 
     if (loop->any_state && state->utime < loop->inputs.state.utime)
-        due_markers_init(&loop->due); /* the simulator began anew */
-    if (!wait_for_marker(loop, state->vision_due))
+        due_observations_init(&loop->due); /* the simulator began anew */
+    if (!wait_for_observation(loop, due_with(loop, state)))
         return;
     begin = bus_monotonic_us();
     loop->any_state = true;
@@ -247,10 +253,11 @@ static void take_all(struct loop *loop)
     }
     inputs->state_age =
         loop->any_state ? (double)(bus_monotonic_us() - loop->received.received) * 1e-6 : INFINITY;
-    inputs->n_markers = 0;
-    while (inputs->n_markers < TICK_MAX_MARKERS &&
-           mailbox_take(daemon_bus_markers(loop->bus), &inputs->marker[inputs->n_markers]))
-        inputs->n_markers++;
+    inputs->n_observations = 0;
+    while (inputs->n_observations < TICK_MAX_OBSERVATIONS &&
+           mailbox_take(daemon_bus_observations(loop->bus),
+                        &inputs->observation[inputs->n_observations]))
+        inputs->n_observations++;
     take_requests(loop);
     inputs->overrunning = loop->overruns_in_a_row >= loop->config->overruns_fault;
 }

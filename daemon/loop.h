@@ -15,8 +15,8 @@ struct loop;
 /* What the loop is doing, for the thread that keeps house. */
 enum loop_wait {
     LOOP_RUNS,
-    LOOP_WAITS_FOR_STATE,  /* lockstep: the simulator holds the clock */
-    LOOP_WAITS_FOR_MARKER, /* lockstep: vision has not answered yet */
+    LOOP_WAITS_FOR_STATE,       /* lockstep: the simulator holds the clock */
+    LOOP_WAITS_FOR_OBSERVATION, /* lockstep: vision or the robot has not told yet */
 };
 
 size_t loop_memory(void);

@@ -209,7 +209,8 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
     reachd->tick = tick_create(&reachd->config, reachd->arena, error, error_size);
     if (!reachd->tick || tick_open_model(reachd->tick, error, error_size))
         return -1;
-    reachd->bus = daemon_bus_create(reachd->lcm, reachd->arena, error, error_size);
+    reachd->bus =
+        daemon_bus_create(reachd->lcm, reachd->config.space.kind, reachd->arena, error, error_size);
     if (!reachd->bus)
         return -1;
     reachd->watchdog = watchdog_create(&reachd->config, reachd->bus, !lockstep, reachd->arena);

@@ -1,5 +1,5 @@
-/* Visually guided reaching (paper section 7.3): the head rests, the arm brings the marker to
- * targets in the image. */
+/* Reaching (paper sections 6.2 and 7.3): the head, if there is one, rests, and the arm brings the
+ * end-effector to targets in the image or in the ground frame. */
 #include "behaviour.h"
 #include "targets.h"
 
@@ -15,7 +15,7 @@ static void slide(const struct config *config, const double *target, double *set
     double share =
         config->task_smoothing > 0 ? 1 - exp(-config->period / config->task_smoothing) : 1;
 
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+    for (int row = 0; row < SPACE_DIMENSIONS; row++)
         setpoint[row] += share * (target[row] - setpoint[row]);
 }
 
@@ -24,7 +24,7 @@ static bool reach_step(struct behaviour *behaviour, struct control *control)
     const struct config *config = control->config;
     const double *target = NULL;
     double *setpoint = behaviour->targets.setpoint;
-    double velocity[VISUAL_DIMENSIONS];
+    double velocity[SPACE_DIMENSIONS];
 
     switch (targets_step(behaviour, control, &target)) {
     case TARGETS_PREPARE:
@@ -45,6 +45,9 @@ static bool reach_step(struct behaviour *behaviour, struct control *control)
                config->fixation_timeout) {
         targets_refixate(behaviour);
     }
+    /* What is measured wherever it is, is learned wherever it is. */
+    if (control->sight->new_frame && !config->space.fixates)
+        control_gather(control, 1);
     return true;
 }
 

@@ -16,13 +16,14 @@ void sight_forget(struct sight *sight)
     sight->newest_seen = false;
 }
 
-bool sight_observe(struct sight *sight, const reach_marker_t *marker, const struct history *history)
+bool sight_observe(struct sight *sight, const struct observation *marker,
+                   const struct history *history)
 {
-    struct sight_frame frame = {.utime = marker->utime,
-                                .image = {marker->u_right, marker->v_right, marker->disparity}};
+    struct sight_frame frame = {.utime = marker->utime};
 
     if (marker->utime <= sight->newest || !history_at(history, marker->utime, frame.q))
         return false;
+    memcpy(frame.image, marker->value, sizeof frame.image);
     sight->newest = marker->utime;
     sight->newest_seen = marker->seen;
     if (!marker->seen) {
@@ -42,18 +43,18 @@ void sight_carry(struct sight *sight, const double *q, const double *jacobian)
 {
     const struct sight_frame *frame = &sight->frame[sight->last];
     int n_arm = config_arm_joints(sight->config);
-    double moved[VISUAL_DIMENSIONS] = {0};
-    double shift[VISUAL_DIMENSIONS];
+    double moved[SPACE_DIMENSIONS] = {0};
+    double shift[SPACE_DIMENSIONS];
 
     if (!sight->any)
         return;
-    for (int row = 0; jacobian && row < VISUAL_DIMENSIONS; row++)
+    for (int row = 0; jacobian && row < SPACE_DIMENSIONS; row++)
         for (int i = 0; i < n_arm; i++)
             moved[row] += jacobian[row * n_arm + i] * (q[i] - frame->q[i]);
-    moved[0] -= q[n_arm] - frame->q[n_arm];
-    moved[1] -= q[n_arm + 1] - frame->q[n_arm + 1];
-    task_to_visual(sight->config->pixels_per_radian, moved, shift);
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+    for (int i = 0; i < sight->config->space.n_head; i++)
+        moved[i] -= q[n_arm + i] - frame->q[n_arm + i];
+    space_from_task(&sight->config->space, moved, shift);
+    for (int row = 0; row < SPACE_DIMENSIONS; row++)
         sight->carried[row] = frame->image[row] + shift[row];
 }
 
@@ -103,14 +104,19 @@ static double joint_spread(const struct sight *sight, int n, int joint)
     return (greatest - least) * sight->config->pixels_per_radian;
 }
 
+int sight_pair_frames(const struct config *config)
+{
+    return config->space.fixates ? config->fixation_frames : 1;
+}
+
 bool sight_fixated(const struct sight *sight)
 {
-    int n = sight->config->fixation_frames;
-    double mean[VISUAL_DIMENSIONS];
+    int n = sight_pair_frames(sight->config);
+    double mean[SPACE_DIMENSIONS];
 
-    if (sight->count < n)
-        return false;
-    for (int axis = 0; axis < VISUAL_DIMENSIONS; axis++)
+    if (!sight->config->space.fixates || sight->count < n)
+        return sight->count >= n;
+    for (int axis = 0; axis < SPACE_DIMENSIONS; axis++)
         if (image_spread(sight, n, axis, &mean[axis]) > sight->config->fixation_rest)
             return false;
     for (int joint = 0; joint < config_joints(sight->config); joint++)
@@ -123,28 +129,29 @@ bool sight_centred(const struct sight *sight)
 {
     const double *image = sight->frame[sight->last].image;
 
-    return sight->count > 0 && within_tolerance(sight, image[0], image[1]);
+    return sight->count > 0 &&
+           (!sight->config->space.fixates || within_tolerance(sight, image[0], image[1]));
 }
 
 void sight_pair(const struct sight *sight, int n, double *q, double *x, int64_t *utime)
 {
     int n_arm = config_arm_joints(sight->config);
-    double image[VISUAL_DIMENSIONS] = {0};
+    double image[SPACE_DIMENSIONS] = {0};
 
     memset(q, 0, sizeof(double) * (size_t)n_arm);
-    memset(x, 0, sizeof(double) * VISUAL_DIMENSIONS);
+    memset(x, 0, sizeof(double) * SPACE_DIMENSIONS);
     for (int age = n - 1; age >= 0; age--) {
         const struct sight_frame *frame = frame_at(sight, age);
         for (int i = 0; i < n_arm; i++)
             q[i] += frame->q[i] / n;
-        x[0] += frame->q[n_arm] / n;
-        x[1] += frame->q[n_arm + 1] / n;
-        for (int axis = 0; axis < VISUAL_DIMENSIONS; axis++)
+        for (int i = 0; i < sight->config->space.n_head; i++)
+            x[i] += frame->q[n_arm + i] / n;
+        for (int axis = 0; axis < SPACE_DIMENSIONS; axis++)
             image[axis] += frame->image[axis] / n;
     }
-    double residual[VISUAL_DIMENSIONS];
-    visual_to_task(sight->config->pixels_per_radian, image, residual);
-    for (int row = 0; row < VISUAL_DIMENSIONS; row++)
+    double residual[SPACE_DIMENSIONS];
+    space_to_task(&sight->config->space, image, residual);
+    for (int row = 0; row < SPACE_DIMENSIONS; row++)
         x[row] += residual[row];
     *utime = (frame_at(sight, 0)->utime + frame_at(sight, n - 1)->utime) / 2;
 }

@@ -42,7 +42,7 @@ static void prepare(struct behaviour *behaviour, struct control *control)
         progress->phase = REACH_STATUS_T_FIXATE;
     if (!sight_fixated(control->sight))
         return;
-    control_gather(control, control->config->fixation_frames);
+    control_gather(control, sight_pair_frames(control->config));
     progress->phase = REACH_STATUS_T_TRACK;
 }
 

@@ -40,7 +40,6 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
                          size_t error_size)
 {
     struct learner_config learner = config_learner(config);
-    const double scale[] = {config->scale_angle, config->scale_angle, config->scale_disparity};
     const struct model_store_settings settings = tick_store_settings(config);
     struct tick *tick = arena_alloc(arena, sizeof *tick);
 
@@ -57,7 +56,7 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
         return NULL;
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
-    select_init(&tick->selection, config_arm_joints(config), VISUAL_DIMENSIONS, scale);
+    select_init(&tick->selection, config_arm_joints(config), SPACE_DIMENSIONS, config->space.scale);
     context_init(&tick->context);
     gaze_init(&tick->gaze, config);
     safety_init(&tick->safety, config);
@@ -121,23 +120,34 @@ static void take_state(struct tick *tick, const struct tick_inputs *inputs)
     history_push(&tick->history, state->utime, state->position);
 }
 
-static void take_markers(struct tick *tick, const struct tick_inputs *inputs)
+static void take_observations(struct tick *tick, const struct tick_inputs *inputs)
 {
     tick->marker_seq_now = 0;
     tick->sight.new_frame = false;
-    for (int i = 0; i < inputs->n_markers; i++) {
-        if (!inputs_marker_ok(&inputs->marker[i]))
+    for (int i = 0; i < inputs->n_observations; i++) {
+        if (!inputs_observation_ok(tick->config, &inputs->observation[i]))
             tick->bad_inputs++;
-        else if (sight_observe(&tick->sight, &inputs->marker[i], &tick->history))
-            tick->marker_seq_now = inputs->marker[i].seq;
+        else if (sight_observe(&tick->sight, &inputs->observation[i], &tick->history))
+            tick->marker_seq_now = inputs->observation[i].seq;
     }
 }
 
-/* Predicts at the present joints, chooses the solution, carries the marker to now. */
+/* The output is measured, wherever the end-effector is: the estimate of eq. 14 starts from it. */
+static void measure(struct tick *tick)
+{
+    struct pair pair;
+
+    sight_pair(&tick->sight, 1, pair.q, pair.x, &pair.utime);
+    tick_anchor(tick, &pair);
+}
+
+/* Predicts at the present joints, chooses the solution, carries what was seen to now. */
 static void sense(struct tick *tick)
 {
     if (tick->state_seq_now) {
         select_integrate(&tick->selection, tick->q);
+        if (tick->sight.new_frame && !tick->config->space.fixates)
+            measure(tick);
         select_solution(&tick->selection, tick->learner, tick->q);
         context_follow(&tick->context, &tick->selection);
     }
@@ -195,7 +205,8 @@ static void behave(struct tick *tick, struct control *control)
         memset(control->velocity, 0, sizeof control->velocity);
     }
     motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, control->velocity);
-    motion_shape(config, n_arm, HEAD_JOINTS, tick->q, tick->safety.previous, control->velocity);
+    motion_shape(config, n_arm, config_head_joints(config), tick->q, tick->safety.previous,
+                 control->velocity);
 }
 
 static void command(struct tick *tick, const struct control *control, int64_t now,
@@ -233,7 +244,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         safety_rests(&tick->safety);
     outputs->has_sample = false;
     take_state(tick, inputs);
-    take_markers(tick, inputs);
+    take_observations(tick, inputs);
     sense(tick);
     tick_take_requests(tick, inputs, &control);
     supervise(tick, inputs);

@@ -9,8 +9,8 @@
 #include "arena.h"
 #include "config.h"
 #include "model_store.h"
+#include "observation.h"
 
-#include <reach_marker_t.h>
 #include <reach_request_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -19,7 +19,7 @@
 #include <reach_trace_t.h>
 #include <stdbool.h>
 
-#define TICK_MAX_MARKERS 8
+#define TICK_MAX_OBSERVATIONS 8
 #define TICK_MAX_REQUESTS 8
 
 /* What has come since the tick before, in order of arrival. */
@@ -27,8 +27,8 @@ struct tick_inputs {
     bool has_state;
     reach_robot_state_t state;
     double state_age; /* of the newest state ever received, s; INFINITY = none yet */
-    int n_markers;
-    reach_marker_t marker[TICK_MAX_MARKERS];
+    int n_observations;
+    struct observation observation[TICK_MAX_OBSERVATIONS];
     int n_requests;
     reach_request_t request[TICK_MAX_REQUESTS];
     bool overrunning; /* the loop was late too often */

@@ -48,12 +48,15 @@ struct tick {
     int64_t state_seq_now, marker_seq_now, request_seq_now;
     int32_t learned_now;
     bool has_target;
-    double target[VISUAL_DIMENSIONS];
+    double target[SPACE_DIMENSIONS];
 };
 
 /* Looks at the requests that came, and at what became of a save or load. */
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
                         struct control *control);
+
+/* The output was measured at the pair's joints: eq. 14 goes on from there. */
+void tick_anchor(struct tick *tick, const struct pair *pair);
 
 /* A behaviour gathered a pair: report it with the prediction made before it is learned, queue it
  * for learning unless the model is frozen, and let the context follow it. */

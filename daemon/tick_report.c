@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* The pair belongs to the past; eq. 14 brings its output to the present joints. */
-static void anchor(struct tick *tick, const struct pair *pair)
+void tick_anchor(struct tick *tick, const struct pair *pair)
 {
     struct selection *selection = &tick->selection;
     const double *jacobian = select_jacobian(selection);
@@ -19,13 +19,23 @@ static void anchor(struct tick *tick, const struct pair *pair)
     select_anchor(selection, x);
 }
 
+/* A pair of this very instant needs no prediction of its own. */
+static const struct learner_prediction *predict_at(struct tick *tick, const double *q)
+{
+    size_t size = sizeof(double) * (size_t)tick->selection.n_inputs;
+
+    if (tick->state_seq_now && memcmp(q, tick->q, size) == 0)
+        return &tick->selection.prediction;
+    learner_predict(tick->learner, q, &tick->pair_prediction);
+    return &tick->pair_prediction;
+}
+
 void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs)
 {
     struct selection *selection = &tick->selection;
-    struct learner_prediction *prediction = &tick->pair_prediction;
+    const struct learner_prediction *prediction = predict_at(tick, pair->q);
     reach_sample_t *sample = &outputs->sample;
 
-    learner_predict(tick->learner, pair->q, prediction);
     memset(sample, 0, sizeof *sample);
     sample->utime = pair->utime;
     sample->seq = ++tick->sample_seq;
@@ -46,14 +56,14 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
 
     if (tick->behaviour.learn)
         training_add(&tick->training, pair->q, selection->n_inputs, pair->x, selection->n_outputs);
-    anchor(tick, pair);
+    tick_anchor(tick, pair);
 }
 
 static double error_norm(const struct tick *tick)
 {
     double sum = 0;
 
-    for (int axis = 0; tick->has_target && axis < VISUAL_DIMENSIONS; axis++) {
+    for (int axis = 0; tick->has_target && axis < SPACE_DIMENSIONS; axis++) {
         double error = tick->target[axis] - tick->sight.carried[axis];
         sum += error * error;
     }
@@ -107,6 +117,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->request_result = tick->request_result;
     status->marker_seen = sight_seen(&tick->sight, now);
     status->fixated = sight_fixated(&tick->sight);
+    status->space = (int8_t)tick->config->space.kind;
     status->error = error_norm(tick);
     status->bad_inputs = tick->bad_inputs;
     status->gated = tick->safety.changed;

@@ -25,7 +25,7 @@ static int8_t start_behaviour(struct tick *tick, const reach_request_t *request,
 
 static int8_t answer(struct tick *tick, const reach_request_t *request, struct control *control)
 {
-    if (!inputs_request_ok(request))
+    if (!inputs_request_ok(tick->config, request))
         return REACH_STATUS_T_REFUSED_VALUE;
     switch (request->kind) {
     case REACH_REQUEST_T_STOP:

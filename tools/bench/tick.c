@@ -81,8 +81,8 @@ static void step(struct bench *bench, struct durations *times)
 
     inputs->has_state = true;
     inputs->state = fake_robot_state(&bench->robot);
-    inputs->n_markers = bench->robot.has_marker;
-    inputs->marker[0] = bench->robot.marker;
+    inputs->n_observations = bench->robot.has_marker;
+    inputs->observation[0] = bench->robot.marker;
     int64_t start = durations_clock();
     tick_decide(bench->tick, inputs, bench->robot.now, &bench->outputs);
     durations_add(times, start);

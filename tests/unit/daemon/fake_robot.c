@@ -1,6 +1,6 @@
 #include "fake_robot.h"
 
-#include "visual.h"
+#include "space.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,10 +25,21 @@ void fake_robot_task(const struct fake_robot *robot, const double *q_arm, double
     x[2] = 20 + 80 * lift - 60 * sin(bend) + 25 * roll - 40 * robot->tool * cos(side);
 }
 
+void fake_robot_position(const struct fake_robot *robot, double position[3])
+{
+    const double *q = robot->q;
+    double lift = q[0] + 0.3 * q[6], side = 0.6 * q[1] + q[4], bend = 0.9 - q[3];
+    double reach = 0.25 + 0.12 * sin(bend + 0.2 * q[2]);
+
+    position[0] = reach * cos(lift) + 0.4 * robot->tool * cos(side);
+    position[1] = -0.1 + reach * sin(side) + 0.15 * q[5] + robot->tool * sin(lift);
+    position[2] = 0.6 - reach * sin(lift) * cos(side) + 0.1 * q[2] * q[2] + 0.3 * robot->tool;
+}
+
 void fake_robot_image(const struct fake_robot *robot, double *image)
 {
     const double *q_head = robot->q + config_arm_joints(robot->config);
-    double x[VISUAL_DIMENSIONS];
+    double x[SPACE_DIMENSIONS];
 
     fake_robot_task(robot, robot->q, x);
     /* A pinhole eye in the neck's centre: right of the axis is positive u, below positive v. */
@@ -46,21 +57,30 @@ static double gaussian(struct random_state *random)
     return sum;
 }
 
+static void measure(struct fake_robot *robot)
+{
+    robot->marker = (struct observation){
+        .utime = robot->now, .seq = ++robot->marker_seq, .seen = !robot->blind};
+    robot->has_marker = true;
+    fake_robot_position(robot, robot->marker.value);
+    for (int axis = 0; axis < 3; axis++)
+        robot->marker.value[axis] += robot->noise * gaussian(&robot->random);
+}
+
 static void expose(struct fake_robot *robot)
 {
-    double image[VISUAL_DIMENSIONS];
+    double image[SPACE_DIMENSIONS];
 
     fake_robot_image(robot, image);
-    robot->marker = (reach_marker_t){.utime = robot->now, .seq = ++robot->marker_seq};
+    robot->marker = (struct observation){.utime = robot->now, .seq = ++robot->marker_seq};
     robot->has_marker = true;
     if (robot->blind || fabs(image[0]) > robot->half_width || fabs(image[1]) > robot->half_height) {
-        robot->marker.reason = 1;
         return;
     }
     robot->marker.seen = 1;
-    robot->marker.u_right = image[0] + robot->noise * gaussian(&robot->random);
-    robot->marker.v_right = image[1] + robot->noise * gaussian(&robot->random);
-    robot->marker.disparity = image[2] + robot->noise * gaussian(&robot->random);
+    robot->marker.value[0] = image[0] + robot->noise * gaussian(&robot->random);
+    robot->marker.value[1] = image[1] + robot->noise * gaussian(&robot->random);
+    robot->marker.value[2] = image[2] + robot->noise * gaussian(&robot->random);
 }
 
 reach_robot_state_t fake_robot_state(struct fake_robot *robot)
@@ -74,7 +94,10 @@ reach_robot_state_t fake_robot_state(struct fake_robot *robot)
 
 void fake_robot_step(struct fake_robot *robot, const reach_robot_command_t *command)
 {
-    expose(robot);
+    if (robot->config->space.kind == SPACE_CARTESIAN)
+        measure(robot);
+    else
+        expose(robot);
     for (int i = 0; i < config_joints(robot->config); i++)
         robot->q[i] += command->velocity[i] * robot->config->period;
     robot->now += (int64_t)(robot->config->period * 1e6);

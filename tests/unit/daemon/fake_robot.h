@@ -5,10 +5,10 @@
 #define REACH_TEST_FAKE_ROBOT_H
 
 #include "config.h"
+#include "observation.h"
 #include "random.h"
 #include "sizes.h"
 
-#include <reach_marker_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
 #include <stdbool.h>
@@ -21,15 +21,18 @@ struct fake_robot {
     int64_t marker_seq;
     double q[MAX_JOINTS];           /* rad */
     double tool;                    /* length of what it holds; 0 = hand */
-    double noise;                   /* of the eyes, standard deviation, px */
+    double noise;                   /* of what is seen, standard deviation, px or m */
     bool blind;                     /* the marker is hidden */
     double half_width, half_height; /* of the image, px */
     struct random_state random;
-    bool has_marker;       /* `marker` is new in this period */
-    reach_marker_t marker; /* exposed a period before, as late cameras do */
+    bool has_marker;           /* `marker` is new in this period */
+    struct observation marker; /* exposed a period before, as late cameras do */
 };
 
 void fake_robot_init(struct fake_robot *robot, const struct config *config);
+
+/* Where the end-effector is of a robot whose task space is Cartesian (seven arm joints), m. */
+void fake_robot_position(const struct fake_robot *robot, double position[3]);
 
 /* Where the marker is: [yaw rad, pitch rad, disparity px] of the head that would fixate it. */
 void fake_robot_task(const struct fake_robot *robot, const double *q_arm, double *x);

@@ -29,6 +29,11 @@ struct config fixture_config(const char *const *overrides, int n_overrides)
     return load(names, 1, overrides, n_overrides);
 }
 
+struct config fixture_robot_config(const char *robot)
+{
+    return load(&robot, 1, NULL, 0);
+}
+
 struct config fixture_learner_config(const char *learner)
 {
     const char *names[] = {"kobian.yaml", learner};

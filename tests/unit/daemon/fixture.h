@@ -10,7 +10,10 @@
 /* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
 struct config fixture_config(const char *const *overrides, int n_overrides);
 
-/* The same with a file of etc over it, such as "learner-linear.yaml". */
+/* Another robot of etc, such as "icub.yaml". */
+struct config fixture_robot_config(const char *robot);
+
+/* etc/kobian.yaml with a file of etc over it, such as "learner-linear.yaml". */
 struct config fixture_learner_config(const char *learner);
 
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */

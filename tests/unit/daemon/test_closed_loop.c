@@ -61,8 +61,8 @@ static void step(void)
 
     inputs->has_state = true;
     inputs->state = fake_robot_state(&world.robot);
-    inputs->n_markers = world.robot.has_marker;
-    inputs->marker[0] = world.robot.marker;
+    inputs->n_observations = world.robot.has_marker;
+    inputs->observation[0] = world.robot.marker;
     tick_decide(world.tick, inputs, world.robot.now, &world.outputs);
     while (tick_learn(world.tick))
         ;

@@ -48,19 +48,21 @@ END_TEST
 START_TEST(a_bad_marker_is_refused)
 {
     const double bad[] = {NAN, INFINITY, -INFINITY, 1e9};
-    reach_marker_t marker = {.utime = 1, .seen = 1};
+    struct observation marker = {.utime = 1, .seen = 1};
 
-    ck_assert(inputs_marker_ok(&marker));
+    config = fixture_config(NULL, 0);
+
+    ck_assert(inputs_observation_ok(&config, &marker));
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
-        marker = (reach_marker_t){.utime = 1, .seen = 1, .u_right = bad[k]};
-        ck_assert(!inputs_marker_ok(&marker));
-        marker = (reach_marker_t){.utime = 1, .seen = 1, .v_right = bad[k]};
-        ck_assert(!inputs_marker_ok(&marker));
-        marker = (reach_marker_t){.utime = 1, .seen = 1, .disparity = bad[k]};
-        ck_assert(!inputs_marker_ok(&marker));
+        marker = (struct observation){.utime = 1, .seen = 1, .value[0] = bad[k]};
+        ck_assert(!inputs_observation_ok(&config, &marker));
+        marker = (struct observation){.utime = 1, .seen = 1, .value[1] = bad[k]};
+        ck_assert(!inputs_observation_ok(&config, &marker));
+        marker = (struct observation){.utime = 1, .seen = 1, .value[2] = bad[k]};
+        ck_assert(!inputs_observation_ok(&config, &marker));
     }
-    marker = (reach_marker_t){.utime = -5, .seen = 1};
-    ck_assert(!inputs_marker_ok(&marker));
+    marker = (struct observation){.utime = -5, .seen = 1};
+    ck_assert(!inputs_observation_ok(&config, &marker));
 }
 END_TEST
 
@@ -68,27 +70,29 @@ START_TEST(a_bad_request_is_refused)
 {
     reach_request_t request = {.kind = REACH_REQUEST_T_BABBLE, .count = 10};
 
-    ck_assert(inputs_request_ok(&request));
+    config = fixture_config(NULL, 0);
+
+    ck_assert(inputs_request_ok(&config, &request));
     request.count = 0;
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
     request = (reach_request_t){.kind = REACH_REQUEST_T_REACH, .n_targets = 32, .period = 1};
-    ck_assert(inputs_request_ok(&request));
+    ck_assert(inputs_request_ok(&config, &request));
     for (int n = -2; n < 1; n++) {
         request.n_targets = n;
-        ck_assert(!inputs_request_ok(&request));
+        ck_assert(!inputs_request_ok(&config, &request));
     }
     request.n_targets = 33;
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
     request.n_targets = 32;
     request.target[31][2] = NAN;
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
     request.target[31][2] = 0;
     request.period = NAN;
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
     request = (reach_request_t){.kind = 99};
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
     request = (reach_request_t){.kind = REACH_REQUEST_T_SAVE, .count = -1};
-    ck_assert(!inputs_request_ok(&request));
+    ck_assert(!inputs_request_ok(&config, &request));
 }
 END_TEST
 

@@ -27,8 +27,8 @@ static void begin(double speed)
 
 static bool see(int64_t utime, double u, double v, double disparity)
 {
-    reach_marker_t marker = {
-        .utime = utime, .seen = 1, .u_right = u, .v_right = v, .disparity = disparity};
+    struct observation marker = {
+        .utime = utime, .seen = 1, .value[0] = u, .value[1] = v, .value[2] = disparity};
 
     return sight_observe(&sight, &marker, &history);
 }
@@ -91,7 +91,7 @@ END_TEST
 
 START_TEST(a_frame_without_marker_breaks_the_row)
 {
-    reach_marker_t hidden = {.utime = 1000000 + 33000 * 20, .reason = 1};
+    struct observation hidden = {.utime = 1000000 + 33000 * 20};
 
     begin(0);
     for (int k = 1; k <= config.fixation_frames; k++)

@@ -253,10 +253,10 @@ START_TEST(nonsense_moves_nothing_beyond_its_limits)
     for (int round = 0; round < 50000; round++) {
         unsigned char *bytes = (unsigned char *)&inputs;
         bool sane = random_bits(&random) % 4 != 0;
-        inputs.n_markers = (int)(random_bits(&random) % (TICK_MAX_MARKERS + 1));
+        inputs.n_observations = (int)(random_bits(&random) % (TICK_MAX_OBSERVATIONS + 1));
         for (int i = 0; i < 40; i++)
-            bytes[offsetof(struct tick_inputs, marker) +
-                  random_bits(&random) % sizeof inputs.marker] =
+            bytes[offsetof(struct tick_inputs, observation) +
+                  random_bits(&random) % sizeof inputs.observation] =
                 (unsigned char)random_bits(&random);
         for (int i = 0; i < 40; i++)
             bytes[offsetof(struct tick_inputs, request) +
