@@ -22,12 +22,13 @@ class NoAnswerError(Exception):
 
 class Bus:
     """`check` is called after every look at the bus; it raises when there is no point in going on:
-    a process has died, the user wants an end."""
+    a process has died, the user wants an end. Requests are numbered after `request_seq`."""
 
-    def __init__(self, url: str = DEFAULT_URL, check: Callable[[], None] = lambda: None):
+    def __init__(self, url: str = DEFAULT_URL, check: Callable[[], None] = lambda: None,
+                 request_seq: int = 0):  # fmt: skip
         self._lcm = lcm.LCM(url)
         self._check = check
-        self._request_seq = 0
+        self._request_seq = request_seq
         self._sim_seq = 0
         self._images: list = []
         self._image_subscription = None

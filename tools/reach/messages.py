@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+_INSTALLED = Path(__file__).resolve().parent / "lcmtypes"  # where pip puts them
+_LCMTYPES = _INSTALLED if _INSTALLED.is_dir() else ROOT / "lcmtypes"
 
 try:
     from reach_lcm import bot_core, reach
@@ -22,6 +24,7 @@ __all__ = ["CHANNELS", "ROOT", "bot_core", "dtype_of", "reach"]
 CHANNELS = {
     "ROBOT_STATE": "robot_state_t",
     "ROBOT_COMMAND": "robot_command_t",
+    "END_EFFECTOR": "end_effector_t",
     "MARKER": "marker_t",
     "REACH_STATUS": "status_t",
     "REACH_TRACE": "trace_t",
@@ -41,7 +44,7 @@ def dtype_of(type_name: str) -> np.dtype:
     All of them are of fixed size, so a whole log becomes one array without a call a message.
     """
     fields = [("fingerprint", ">i8")]
-    text = (ROOT / "lcmtypes" / f"{type_name}.lcm").read_text()
+    text = (_LCMTYPES / f"{type_name}.lcm").read_text()
     body = re.sub(r"//[^\n]*", "", text).partition("{")[2]
     for statement in body.partition("}")[0].split(";"):
         match = _FIELD.match(" ".join(statement.split()))

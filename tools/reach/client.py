@@ -1,0 +1,132 @@
+"""The daemon as an object, for scripts and notebooks."""
+
+import time
+from collections.abc import Sequence
+
+from .bus import DEFAULT_URL, Bus, NoAnswerError
+from .messages import reach
+
+MAX_TARGETS = 32
+_RESULTS = {
+    reach.status_t.REFUSED_STATE: "refused, not in this state",
+    reach.status_t.REFUSED_VALUE: "refused, a value is out of range",
+    reach.status_t.FAILED: "failed, see its log",
+}
+
+
+class RefusedError(Exception):
+    """The daemon will not do it, or has given it up."""
+
+
+class Reach:
+    """A client of a running reachd.
+
+        robot = Reach()
+        robot.babble(200)                  # teach it its arm
+        status = robot.reach(-50, 20, 3)   # px, px, px; or x, y, z in metres
+        print(status.error)
+
+    Calls that start a behaviour return when it has ended, with the daemon's last status of it; with
+    wait=False as soon as it was accepted. RefusedError says why something was not done,
+    NoAnswerError that nobody is there.
+    """
+
+    def __init__(self, url: str = DEFAULT_URL, timeout: float = 5.0):
+        # Numbers of requests must differ from those of every client before.
+        self._bus = Bus(url, request_seq=time.time_ns() // 1000)
+        self._timeout = timeout
+
+    @property
+    def status(self) -> reach.status_t:
+        """The daemon's next status."""
+        self._bus.status = None
+        self._handle_until(lambda: self._bus.status is not None)
+        return self._bus.status
+
+    def babble(self, samples: int, *, seed: int = 1, learn: bool = True, wait: bool = True):
+        """Collects samples at random configurations, to learn from or (learn=False) to test."""
+        return self._behave("BABBLE", wait, count=samples, seed=seed, learn=int(learn))
+
+    def reach(self, u: float, v: float, d: float, *, period: float = 4.0, learn: bool = True,
+              wait: bool = True):  # fmt: skip
+        """Brings the end-effector to (u, v) in the right image and disparity d, px; a robot whose
+        task space is Cartesian takes x, y, z in m."""
+        return self.reach_all([(u, v, d)], period=period, learn=learn, wait=wait)
+
+    def reach_all(self, targets: Sequence[Sequence[float]], *, period: float = 4.0,
+                  learn: bool = True, wait: bool = True):  # fmt: skip
+        """One target after the other, each for `period` seconds; at most 32."""
+        return self._pursue("REACH", targets, period, learn, wait)
+
+    def coordinate(self, targets: Sequence[Sequence[float]], *, period: float = 2.0,
+                   learn: bool = True, wait: bool = True):  # fmt: skip
+        """The head looks at the targets, the arm keeps the ball where it looks."""
+        return self._pursue("COORDINATE", targets, period, learn, wait)
+
+    def stop(self):
+        """Ends what it does."""
+        return self._ask("STOP")
+
+    def emergency(self):
+        """Stops the arm at once; a fault until reset_fault."""
+        return self._ask("EMERGENCY")
+
+    def reset_fault(self):
+        return self._ask("RESET_FAULT")
+
+    def save(self, number: int):
+        """Keeps the model under this number."""
+        return self._ask("SAVE", count=number)
+
+    def load(self, number: int):
+        return self._ask("LOAD", count=number)
+
+    def _pursue(self, kind: str, targets, period: float, learn: bool, wait: bool):
+        rows = [[float(value) for value in target] for target in targets]
+        if not 1 <= len(rows) <= MAX_TARGETS or any(len(row) != 3 for row in rows):
+            raise ValueError(f"1 to {MAX_TARGETS} targets of three numbers are wanted")
+        rows += [[0.0] * 3] * (MAX_TARGETS - len(rows))
+        return self._behave(kind, wait, n_targets=len(targets), target=rows, period=period,
+                            learn=int(learn))  # fmt: skip
+
+    def _behave(self, kind: str, wait: bool, **fields):
+        status = self._ask(kind, **fields)
+        if not wait:
+            return status
+        number = status.request_seq
+        while status.behaviour != status.NONE:
+            status = self.status
+            if status.request_seq != number:
+                raise RefusedError("another request has replaced this one")
+            if status.state == status.FAULT:
+                raise RefusedError("reachd is in its fault state; reset_fault() leaves it")
+        return status
+
+    def _ask(self, kind: str, **fields):
+        """Sends a request; returns the status that accepts it."""
+        request = self._bus.prepare(getattr(reach.request_t, kind), **fields)
+        self._bus.send(request)
+        self._handle_until(lambda: self._answered(request.seq))
+        status = self._bus.status
+        if status.request_result != status.ACCEPTED:
+            raise RefusedError(f"reachd: {_RESULTS.get(status.request_result, 'unknown result')}")
+        return status
+
+    def _answered(self, seq: int) -> bool:
+        status = self._bus.status
+        return (
+            status is not None
+            and status.request_seq == seq
+            and status.request_result != status.PENDING
+        )
+
+    def _handle_until(self, done) -> None:
+        end = time.monotonic() + self._timeout
+        while not done():
+            left = end - time.monotonic()
+            if left <= 0:
+                raise NoAnswerError(
+                    f"no answer from reachd in {self._timeout:g} s: it does not run, or no robot"
+                    " state reaches it"
+                )
+            self._bus.handle(min(left, 0.01))
