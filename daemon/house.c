@@ -16,6 +16,7 @@ static sigset_t house_signals(void)
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
     return signals;
 }
 
@@ -50,6 +51,13 @@ static void tell_service(struct house *house)
                  loop_waits(house->loop) != LOOP_RUNS, house->any_status ? &house->status : NULL);
 }
 
+static void read_configuration_again(struct house *house)
+{
+    notify_send("RELOADING=1");
+    reload_configuration(house->reload, house->loop);
+    notify_send("READY=1");
+}
+
 void house_keep(struct house *house)
 {
     const struct timespec period = {.tv_nsec = (long)period_ms * 1000000};
@@ -60,6 +68,8 @@ void house_keep(struct house *house)
         int signal = sigtimedwait(&signals, NULL, &period);
         if (signal == SIGINT || signal == SIGTERM)
             break;
+        if (signal == SIGHUP)
+            read_configuration_again(house);
         model_store_serve(house->store, bus_monotonic_us());
         say_what_is_awaited(house);
         tell_service(house);

@@ -5,6 +5,7 @@
 #include "daemon_bus.h"
 #include "loop.h"
 #include "model_store.h"
+#include "reload.h"
 #include "service.h"
 
 #include <stdint.h>
@@ -13,6 +14,7 @@ struct house {
     struct loop *loop;
     struct daemon_bus *bus;
     struct model_store *store;
+    struct reload *reload;
     struct service service;
     reach_status_t status; /* the newest */
     bool any_status;

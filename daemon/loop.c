@@ -42,6 +42,7 @@ struct loop {
     sem_t started;
     int start_result;
     char start_error[200];
+    _Atomic(const struct config *) offered;
     _Atomic bool ending;
     _Atomic int64_t ticks;
     _Atomic int state; /* state * 256 + fault, so that both are of one tick */
@@ -87,6 +88,11 @@ enum loop_wait loop_waits(const struct loop *loop)
     return (enum loop_wait)atomic_load_explicit(&loop->waits, memory_order_relaxed);
 }
 
+const struct config *loop_offer_config(struct loop *loop, const struct config *config)
+{
+    return atomic_exchange_explicit(&loop->offered, config, memory_order_acq_rel);
+}
+
 static void set_waits(struct loop *loop, enum loop_wait waits)
 {
     atomic_store_explicit(&loop->waits, (int)waits, memory_order_relaxed);
@@ -109,6 +115,9 @@ static void take_requests(struct loop *loop)
 
 static void decide(struct loop *loop, int64_t now)
 {
+    loop->inputs.config = loop_offer_config(loop, NULL);
+    if (loop->inputs.config)
+        loop->config = loop->inputs.config;
     loop->inputs.emergency = daemon_bus_take_emergency(loop->bus);
     loop->inputs.braked = watchdog_take_braked(loop->watchdog);
     tick_decide(loop->tick, &loop->inputs, now, &loop->outputs);

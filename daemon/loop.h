@@ -31,6 +31,11 @@ struct loop *loop_create(const struct config *config, struct tick *tick, struct 
  * with one line in `error`. */
 int loop_start(struct loop *loop, char *error, size_t error_size);
 
+/* Puts a configuration, which stays the caller's, where the loop takes it before its next tick;
+ * NULL takes an offer back. Returns the offer before, if the loop has not taken it; else NULL, and
+ * then the loop works with that offer. */
+const struct config *loop_offer_config(struct loop *loop, const struct config *config);
+
 /* Ends the thread after the tick it is in; a last command of zero velocity goes out. */
 void loop_stop(struct loop *loop);
 

@@ -37,6 +37,7 @@ struct arguments {
 struct reachd {
     struct arguments arguments;
     struct config config;
+    struct reload reload;
     lcm_t *lcm;
     struct bus_claim *claim;
     struct arena *arena;
@@ -237,6 +238,15 @@ static void tear_down(struct reachd *reachd)
     arena_destroy(reachd->arena);
 }
 
+static struct reload reload_of(const struct reachd *reachd)
+{
+    return (struct reload){.paths = reachd->arguments.configs,
+                           .n_paths = reachd->arguments.n_configs,
+                           .overrides = reachd->arguments.overrides,
+                           .n_overrides = reachd->arguments.n_overrides,
+                           .accepted = &reachd->config};
+}
+
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
     const struct model_store_settings settings = tick_store_settings(config);
@@ -270,6 +280,7 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
 {
     struct house house = {0};
 
+    reachd->reload = reload_of(reachd);
     house_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
@@ -279,6 +290,7 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
     house.loop = reachd->loop;
     house.bus = reachd->bus;
     house.store = tick_model_store(reachd->tick);
+    house.reload = &reachd->reload;
     if (is_real_time(reachd))
         model_store_unlock_memory(house.store);
     house_keep(&house);

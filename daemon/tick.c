@@ -223,11 +223,20 @@ static void command(struct tick *tick, const struct control *control, int64_t no
     safety_gate(&tick->safety, tick->q, command->velocity);
 }
 
+/* Nothing that was built on the old one depends on what may differ (reload.h). */
+static void take_config(struct tick *tick, const struct config *config)
+{
+    tick->config = config;
+    tick->sight.config = config;
+    tick->gaze.config = config;
+    tick->safety.config = config;
+}
+
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs)
 {
     struct control control = {
-        .config = tick->config,
+        .config = inputs->config ? inputs->config : tick->config,
         .now = now,
         .q = tick->q,
         .previous = tick->safety.previous,
@@ -236,6 +245,8 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         .gaze = &tick->gaze,
     };
 
+    if (inputs->config)
+        take_config(tick, inputs->config);
     tick->seq++;
     tick->learned_now = 0;
     if (inputs->braked > 0)

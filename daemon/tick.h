@@ -24,6 +24,7 @@
 
 /* What has come since the tick before, in order of arrival. */
 struct tick_inputs {
+    const struct config *config; /* works with this one from now on; NULL = with the one it has */
     bool has_state;
     reach_robot_state_t state;
     double state_age; /* of the newest state ever received, s; INFINITY = none yet */

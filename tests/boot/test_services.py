@@ -145,6 +145,22 @@ class Services(unittest.TestCase):
         self.start()
         eventually(lambda: self.status().get("samples_stored", 0) >= learned, "the model is back")
 
+    def test_a_reload_is_refused_or_taken(self):
+        file = "/usr/local/etc/reach/kobian.yaml"
+        before = self.machine.property("reachd.service", "MainPID")
+        self.addCleanup(self.machine.run, "cp", f"{file}.kept", file)
+        self.machine.run("cp", file, f"{file}.kept")
+        self.machine.run("sed", "-i", "s/arm_velocity: 40 /arm_velocity: 20 /", file)
+        self.reload("1 options differ")
+        self.machine.run("sed", "-i", "s/period: 0.02 /period: 0.01 /", file)
+        self.reload("period cannot change")
+        self.assertEqual(self.machine.property("reachd.service", "MainPID"), before)
+        self.learns(1)
+
+    def reload(self, answer: str) -> None:
+        self.machine.run("systemctl", "reload", "reachd.service")
+        eventually(lambda: answer in self.journal(), f"the log says {answer}")
+
     def test_the_target_stops_all(self):
         self.machine.run("systemctl", "stop", "reach.target")
         for unit in ALL:

@@ -228,6 +228,37 @@ START_TEST(after_a_long_silence_the_arm_starts_from_rest)
 }
 END_TEST
 
+static double fastest(int ticks)
+{
+    double most = 0;
+
+    for (int i = 0; i < ticks; i++) {
+        step(true);
+        for (int j = 0; j < config_arm_joints(&config); j++)
+            most = fmax(most, fabs(outputs.command.velocity[j]));
+    }
+    return most;
+}
+
+START_TEST(a_new_configuration_holds_from_its_tick_on)
+{
+    static struct config slower;
+
+    begin();
+    step(true);
+    ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 100});
+    ck_assert_double_eq_tol(fastest(500), config.arm_velocity, 1e-9);
+    slower = config;
+    slower.arm_velocity = 0.1 * config.arm_velocity;
+    inputs.config = &slower;
+    step(true);
+    inputs.config = NULL;
+    fastest(20); /* slows down */
+    ck_assert_double_eq_tol(fastest(500), slower.arm_velocity, 1e-9);
+    arena_destroy(arena);
+}
+END_TEST
+
 START_TEST(a_state_that_is_not_a_number_is_dropped)
 {
     begin();
@@ -295,6 +326,7 @@ int main(void)
         an_emergency_stops_the_arm_within_the_tick,
         the_loop_goes_on_where_the_watchdog_came_to,
         after_a_long_silence_the_arm_starts_from_rest,
+        a_new_configuration_holds_from_its_tick_on,
         a_state_that_is_not_a_number_is_dropped,
         nonsense_moves_nothing_beyond_its_limits,
     };

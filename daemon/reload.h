@@ -1,0 +1,34 @@
+/* Reading the configuration again while the daemon runs: whole and checked, or not at all.
+ *
+ * Gains, wanted limits and behaviours may change from one tick to the next. What memory, model or
+ * safety were built on may not; an option is of that kind unless reload.c names it. */
+#ifndef REACH_RELOAD_H
+#define REACH_RELOAD_H
+
+#include "config.h"
+#include "loop.h"
+
+#include <stdbool.h>
+
+struct reload {
+    /* What the daemon was started with; the caller's. */
+    const char *const *paths, *const *overrides;
+    int n_paths, n_overrides;
+    const struct config *accepted; /* newest; at first what the loop was made with */
+
+    /* The rest is reload.c's: while the loop works with one buffer, the other is free. */
+    struct config buffer[2];
+    struct config read;
+    const struct config *used; /* the loop works with this one, as far as housekeeping knows */
+};
+
+/* Whether the loop may go over from one configuration to the other. Counts in `changes` what
+ * differs; false with one line in `error` that names the option that forbids it. */
+bool reload_allowed(const struct config *from, const struct config *to, int *changes, char *error,
+                    size_t error_size);
+
+/* Housekeeping thread: reads all again and offers it to the loop, which takes it before its next
+ * tick; or logs why not, and the old one stays. */
+void reload_configuration(struct reload *reload, struct loop *loop);
+
+#endif
