@@ -7,6 +7,7 @@ from .bus import DEFAULT_URL, Bus, NoAnswerError
 from .messages import reach
 
 MAX_TARGETS = 32
+RESEND_SECONDS = 0.5
 _RESULTS = {
     reach.status_t.REFUSED_STATE: "refused, not in this state",
     reach.status_t.REFUSED_VALUE: "refused, a value is out of range",
@@ -105,8 +106,8 @@ class Reach:
     def _ask(self, kind: str, **fields):
         """Sends a request; returns the status that accepts it."""
         request = self._bus.prepare(getattr(reach.request_t, kind), **fields)
-        self._bus.send(request)
-        self._handle_until(lambda: self._answered(request.seq))
+        # Repeats change nothing: the daemon may just be starting.
+        self._handle_until(lambda: self._answered(request.seq), lambda: self._bus.send(request))
         status = self._bus.status
         if status.request_result != status.ACCEPTED:
             raise RefusedError(f"reachd: {_RESULTS.get(status.request_result, 'unknown result')}")
@@ -120,13 +121,19 @@ class Reach:
             and status.request_result != status.PENDING
         )
 
-    def _handle_until(self, done) -> None:
-        end = time.monotonic() + self._timeout
+    def _handle_until(self, done, send=lambda: None) -> None:
+        """Until done(), sending now and then."""
+        now = sent = time.monotonic()
+        end = now + self._timeout
+        send()
         while not done():
-            left = end - time.monotonic()
-            if left <= 0:
+            now = time.monotonic()
+            if now - sent > RESEND_SECONDS:
+                send()
+                sent = now
+            if now > end:
                 raise NoAnswerError(
                     f"no answer from reachd in {self._timeout:g} s: it does not run, or no robot"
                     " state reaches it"
                 )
-            self._bus.handle(min(left, 0.01))
+            self._bus.handle(0.01)
