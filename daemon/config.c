@@ -1,13 +1,13 @@
 #include "config.h"
 
+#include "config_check.h"
 #include "daemon/learner_rows.h"
 #include "space.h"
 
 #include <math.h>
 #include <string.h>
 
-/* What one tick can touch: experts, and with them the learner's memory. */
-enum { MOST_EXPERTS = 1024 };
+/* What one tick can touch of the learner's memory. */
 static const double most_bytes = 16e6;
 
 #define ROW(name, type, field, unit, initial, minimum, maximum, help)                              \
@@ -66,6 +66,10 @@ static const struct option_row table[] = {
            "age of the robot state at which the robot is held still"),
     NUMBER("safety.state_suspend", state_suspend, "s", "0.1", 0.001, 60,
            "age of the robot state at which the behaviour is suspended"),
+    NUMBER("safety.reaction", reaction, "s", "0.12", 0, 2,
+           "standstill of the loop that braking before a joint limit reckons with"),
+    NUMBER("safety.latency", latency, "s", "0.04", 0, 1,
+           "delays of state and command, beyond a period, that it reckons with"),
     NUMBER("safety.loop_stall", loop_stall, "s", "0.1", 0.01, 10,
            "standstill of the loop after which the watchdog stops the arm"),
     COUNT("safety.overruns_fault", overruns_fault, "10", 1, 100000,
@@ -174,110 +178,6 @@ void config_print_options(FILE *out)
     options_print(table, &config, out);
 }
 
-/* Two lists of limits: as long as each other and in order. */
-static int check_range(const char *name, const struct option_list *min,
-                       const struct option_list *max, char *error, size_t error_size)
-{
-    if (min->n != max->n) {
-        snprintf(error, error_size, "%s.min and %s.max must have as many entries", name, name);
-        return -1;
-    }
-    for (int i = 0; i < min->n; i++)
-        if (min->value[i] >= max->value[i]) {
-            snprintf(error, error_size, "%s.min is not below %s.max at joint %d", name, name,
-                     i + 1);
-            return -1;
-        }
-    return 0;
-}
-
-static int check_babble(const struct config *config, char *error, size_t error_size)
-{
-    if (config->babble_min.n != config_arm_joints(config)) {
-        snprintf(error, error_size, "babble.min must have an entry for each arm joint");
-        return -1;
-    }
-    for (int i = 0; i < config->babble_min.n; i++)
-        if (config->babble_min.value[i] < config->arm_min.value[i] ||
-            config->babble_max.value[i] > config->arm_max.value[i]) {
-            snprintf(error, error_size, "babble range of joint %d is outside arm.min .. arm.max",
-                     i + 1);
-            return -1;
-        }
-    return 0;
-}
-
-static int check_motion(const struct config *config, char *error, size_t error_size)
-{
-    const char *wrong = NULL;
-
-    if (config->arm_velocity > config->safety_arm_velocity)
-        wrong = "motion.arm_velocity exceeds safety.arm_velocity";
-    else if (config->head_velocity > config->safety_head_velocity)
-        wrong = "motion.head_velocity exceeds safety.head_velocity";
-    else if (config->arm_acceleration > config->safety_arm_acceleration)
-        wrong = "motion.arm_acceleration exceeds safety.arm_acceleration";
-    else if (config->head_acceleration > config->safety_head_acceleration)
-        wrong = "motion.head_acceleration exceeds safety.head_acceleration";
-    else if (config->slow_down * config->safety_arm_velocity > config->safety_arm_acceleration ||
-             config->slow_down * config->safety_head_velocity > config->safety_head_acceleration)
-        wrong = "motion.slow_down times a safety velocity exceeds the safety acceleration: "
-                "a joint could not stop before its limit";
-    else if (config->slow_down * config->period > 0.25)
-        wrong = "motion.slow_down is too great for the period: at most 0.25 / period";
-    else if (config->state_suspend < config->state_hold)
-        wrong = "safety.state_suspend is below safety.state_hold";
-    else if (config->search_velocity > config->head_velocity)
-        wrong = "head.search_velocity exceeds motion.head_velocity";
-    if (wrong)
-        snprintf(error, error_size, "%s", wrong);
-    return wrong ? -1 : 0;
-}
-
-static int check_sizes(const struct config *config, char *error, size_t error_size)
-{
-    if (config_head_joints(config) != config->space.n_head) {
-        snprintf(error, error_size,
-                 config->space.n_head > 0
-                     ? "head.min and head.max must name two joints, yaw and pitch"
-                     : "head.min and head.max: a Cartesian task space has no head");
-        return -1;
-    }
-    if (config->space.kind == SPACE_VISUAL && config->pixels_per_radian < 1) {
-        snprintf(error, error_size, "eyes.pixels_per_radian must be given, 1 or more");
-        return -1;
-    }
-    if (config_arm_joints(config) == 0) {
-        snprintf(error, error_size, "arm.min and arm.max name no joint");
-        return -1;
-    }
-    if (config_joints(config) > OPTION_MAX_LIST) {
-        snprintf(error, error_size, "more than %d joints", OPTION_MAX_LIST);
-        return -1;
-    }
-    if (config->learner_reference.n != config_arm_joints(config)) {
-        snprintf(error, error_size, "learner.reference must have an entry for each arm joint");
-        return -1;
-    }
-    return 0;
-}
-
-static int check_learner(const struct config *config, char *error, size_t error_size)
-{
-    struct learner_config learner = config_learner(config);
-    char reason[256];
-
-    if (learner.capacity > MOST_EXPERTS) {
-        snprintf(error, error_size, "learner.capacity is more than the %d that one tick can touch",
-                 MOST_EXPERTS);
-        return -1;
-    }
-    if (learner_config_check(&learner, reason, sizeof reason) == 0)
-        return 0;
-    snprintf(error, error_size, "learner: %s", reason);
-    return -1;
-}
-
 static void set_visual(struct config *config)
 {
     const double per_pixel = 1 / config->pixels_per_radian;
@@ -323,12 +223,7 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
     if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
         return -1;
     set_space(config);
-    if (check_range("arm", &config->arm_min, &config->arm_max, reason, sizeof reason) ||
-        check_range("head", &config->head_min, &config->head_max, reason, sizeof reason) ||
-        check_range("babble", &config->babble_min, &config->babble_max, reason, sizeof reason) ||
-        check_sizes(config, reason, sizeof reason) || check_babble(config, reason, sizeof reason) ||
-        check_motion(config, reason, sizeof reason) ||
-        check_learner(config, reason, sizeof reason)) {
+    if (config_check(config, reason, sizeof reason)) {
         snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
         return -1;
     }

@@ -27,6 +27,7 @@ struct config {
     double safety_arm_velocity, safety_arm_acceleration;
     double safety_head_velocity, safety_head_acceleration;
     double state_hold, state_suspend; /* ages of the robot state, s */
+    double reaction, latency;         /* that braking before a limit reckons with, s */
     double loop_stall;                /* standstill of the loop, s */
     int overruns_fault;               /* late ticks in a row that are a fault */
 

@@ -144,7 +144,6 @@ static void report(struct loop *loop, int64_t now)
     status->page_faults = realtime_page_faults() - loop->page_faults;
     status->overruns = loop->overruns;
     status->slips = loop->slips;
-    status->staleness = loop->any_state ? loop->inputs.state_age : -1;
     status->bad_inputs += daemon_bus_refused(loop->bus);
     daemon_bus_send_report(loop->bus, status, &loop->outputs.trace);
     atomic_store_explicit(&loop->state, status->state * 256 + status->fault, memory_order_relaxed);
@@ -320,11 +319,10 @@ static void run_real_time(struct loop *loop)
     int64_t due = monotonic_ns() + period;
 
     while (!ending(loop)) {
-        int64_t skipped;
         sleep_until(due);
         step_real_time(loop, due, period);
-        due = grid_next(due, monotonic_ns(), period, &skipped);
-        loop->slips += skipped;
+        due = grid_next(due, monotonic_ns(), period, &loop->inputs.slipped);
+        loop->slips += loop->inputs.slipped;
     }
 }
 

@@ -15,6 +15,8 @@
 #include <math.h>
 #include <string.h>
 
+static const int64_t overtaken_us = 200000; /* the most that messages overtake each other */
+
 size_t tick_memory(const struct config *config)
 {
     struct learner_config learner = config_learner(config);
@@ -98,18 +100,36 @@ static void begin_anew(struct tick *tick)
     tick->selection.moved_from = false;
 }
 
+/* Overtaken on its way by a newer one, or seen before. A robot that starts anew begins with
+ * number 1, one whose clock is set back goes back farther. */
+static bool is_late(const struct tick *tick, const reach_robot_state_t *state)
+{
+    return tick->state_known && state->seq > 1 && state->seq <= tick->state_seq &&
+           state->utime <= tick->state_utime && tick->state_utime - state->utime < overtaken_us;
+}
+
+static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
+{
+    if (!inputs->has_state || is_late(tick, &inputs->state))
+        return false;
+    if (inputs_state_ok(tick->config, &inputs->state))
+        return true;
+    tick->bad_inputs++;
+    return false;
+}
+
 /* Takes the state in. A bad one is dropped, the last good one kept until it is stale. */
 static void take_state(struct tick *tick, const struct tick_inputs *inputs)
 {
     const reach_robot_state_t *state = &inputs->state;
 
     tick->state_seq_now = 0;
-    if (!inputs->has_state)
-        return;
-    if (!inputs_state_ok(tick->config, state)) {
-        tick->bad_inputs++;
+    if (!is_good(tick, inputs)) {
+        tick->state_age = fmax(inputs->state_age, tick->state_age + tick->config->period);
         return;
     }
+    tick->state_age = inputs->state_age;
+    safety_measured(&tick->safety);
     if (tick->state_known && state->utime <= tick->state_utime)
         begin_anew(tick);
     tick->state_utime = state->utime;
@@ -160,9 +180,9 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
     if (tick->state_known)
         set |= CONDITION_STATE_KNOWN;
-    if (inputs->state_age <= tick->config->state_hold)
+    if (tick->state_age <= tick->config->state_hold)
         set |= CONDITION_STATE_FRESH;
-    if (inputs->state_age <= tick->config->state_suspend)
+    if (tick->state_age <= tick->config->state_suspend)
         set |= CONDITION_STATE_ALIVE;
     if (tick->behaviour.ops)
         set |= CONDITION_BUSY;
@@ -249,6 +269,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         take_config(tick, inputs->config);
     tick->seq++;
     tick->learned_now = 0;
+    safety_held(&tick->safety, inputs->slipped);
     if (inputs->braked > 0)
         safety_was_braked(&tick->safety, inputs->braked);
     else if (inputs->robot_rests)

@@ -27,7 +27,7 @@ struct tick_inputs {
     const struct config *config; /* works with this one from now on; NULL = with the one it has */
     bool has_state;
     reach_robot_state_t state;
-    double state_age; /* of the newest state ever received, s; INFINITY = none yet */
+    double state_age; /* of the newest state ever received, good or bad, s; INFINITY = none yet */
     int n_observations;
     struct observation observation[TICK_MAX_OBSERVATIONS];
     int n_requests;
@@ -35,6 +35,7 @@ struct tick_inputs {
     bool overrunning; /* the loop was late too often */
     bool emergency;   /* somebody wants the arm stopped at once */
     int braked;       /* braking commands that the watchdog sent since the last tick */
+    int64_t slipped;  /* periods that went by without a tick since the last one */
     bool robot_rests; /* no command went out for so long that the robot stopped by itself */
 };
 

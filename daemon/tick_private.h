@@ -38,6 +38,7 @@ struct tick {
     int64_t seq;          /* ticks so far */
     int64_t state_seq;    /* newest good state */
     int64_t state_utime;  /* its time, us */
+    double state_age;     /* since it came, s */
     int64_t sample_seq;
     int64_t bad_inputs;
 

@@ -120,6 +120,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->space = (int8_t)tick->config->space.kind;
     status->error = error_norm(tick);
     status->bad_inputs = tick->bad_inputs;
+    status->staleness = tick->state_known ? tick->state_age : -1;
     status->gated = tick->safety.changed;
     report_behaviour(tick, status);
     report_model(tick, status);

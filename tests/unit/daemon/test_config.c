@@ -111,7 +111,9 @@ START_TEST(what_does_not_fit_together_is_refused)
     refuses("head.min=[-40]", "as many entries");
     refuses("motion.arm_velocity=100", "safety.arm_velocity");
     refuses("motion.slow_down=13", "slow_down");
-    refuses("safety.head_acceleration=401", "could not stop");
+    refuses("motion.head_acceleration=200", "could not be followed");
+    refuses("safety.reaction=0.2", "would have to brake before the motion slows down");
+    refuses("safety.reaction=0.1", "safety.loop_stall");
     refuses("safety.state_suspend=0.01", "state_suspend");
     refuses("head.search_velocity=100", "head.search_velocity");
     refuses("learner.reference=[0]", "learner.reference");

@@ -107,15 +107,16 @@ START_TEST(a_stale_state_stops_the_arm_and_a_fresh_one_resumes)
     for (int i = 0; i < 20; i++)
         step(true);
     ck_assert_double_ne(outputs.command.velocity[0], 0);
-    inputs.state_age = 0.05;
-    for (int i = 0; i < 10; i++)
+    for (inputs.state_age = 0.05; inputs.state_age < 0.1; inputs.state_age += config.period) {
         step(false);
-    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_HOLD);
+        ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_HOLD);
+    }
+    for (int i = 0; i < 6; i++, inputs.state_age += config.period) {
+        step(false);
+        ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_SUSPENDED);
+    }
     for (int i = 0; i < 6; i++)
         ck_assert_double_eq(outputs.command.velocity[i], 0);
-    inputs.state_age = 0.2;
-    step(false);
-    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_SUSPENDED);
     step(true);
     ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_ACTIVE);
     ck_assert_int_eq(outputs.status.behaviour, REACH_STATUS_T_BABBLE);
@@ -274,6 +275,55 @@ START_TEST(a_state_that_is_not_a_number_is_dropped)
 }
 END_TEST
 
+/* Bad states do not keep the last good one fresh, however often they come. */
+START_TEST(a_state_grows_stale_under_bad_ones)
+{
+    begin();
+    step(true);
+    for (int i = 0; i < 10; i++) {
+        inputs.has_state = true;
+        inputs.state = fake_robot_state(&robot);
+        inputs.state.position[1] = NAN;
+        inputs.state_age = 0.001;
+        tick_decide(tick, &inputs, robot.now, &outputs);
+        tick_report(tick, robot.now, &outputs);
+    }
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_SUSPENDED);
+    ck_assert_double_ge(outputs.status.staleness, 0.19);
+    step(true);
+    ck_assert_int_eq(outputs.status.state, REACH_STATUS_T_IDLE);
+    arena_destroy(arena);
+}
+END_TEST
+
+/* What was overtaken on its way says where the robot was; a robot begun anew is believed. */
+START_TEST(a_state_that_was_overtaken_is_not_taken)
+{
+    reach_robot_state_t first, second;
+
+    begin();
+    step(true);
+    first = fake_robot_state(&robot);
+    robot.now += 20000;
+    second = fake_robot_state(&robot);
+    inputs.has_state = true;
+    inputs.state_age = 0;
+    inputs.state = second;
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    inputs.state = first;
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    tick_report(tick, robot.now, &outputs);
+    ck_assert_int_eq(outputs.status.state_seq, second.seq);
+    ck_assert_int_eq(outputs.trace.state_seq, 0);
+    inputs.state.seq = 1;
+    inputs.state.utime = 1000000;
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    tick_report(tick, robot.now, &outputs);
+    ck_assert_int_eq(outputs.trace.state_seq, 1);
+    arena_destroy(arena);
+}
+END_TEST
+
 /* Random bytes as messages, for a robot that obeys: limits hold, every command is finite. */
 START_TEST(nonsense_moves_nothing_beyond_its_limits)
 {
@@ -328,6 +378,8 @@ int main(void)
         after_a_long_silence_the_arm_starts_from_rest,
         a_new_configuration_holds_from_its_tick_on,
         a_state_that_is_not_a_number_is_dropped,
+        a_state_grows_stale_under_bad_ones,
+        a_state_that_was_overtaken_is_not_taken,
         nonsense_moves_nothing_beyond_its_limits,
     };
 
