@@ -118,20 +118,30 @@ void imle_expert_output(struct imle *m, int j, double *xhat)
         xhat[i] = m->outputs[(block_of(j) * m->D + i) * KERNEL_LANES + j % KERNEL_LANES];
 }
 
-double imle_expert_misfit(struct imle *m, int j)
+static double misfit_alone(struct imle *m, int j)
 {
     const double *psi = m->psi + (size_t)j * (size_t)m->D;
     double xhat[LEARNER_MAX_OUTPUTS];
     double sum = 0.0;
 
-    if (m->small) {
-        answer_block(m, j);
-        return m->misfits[j];
-    }
     output_alone(m, j, xhat);
     for (int i = 0; i < m->D; i++)
         sum += (m->target[i] - xhat[i]) * (m->target[i] - xhat[i]) / psi[i];
     return sum;
+}
+
+const double *imle_expert_misfits(struct imle *m, int j)
+{
+    if (m->small)
+        answer_block(m, j);
+    else
+        m->misfits[j] = misfit_alone(m, j);
+    return m->misfits + j;
+}
+
+double imle_expert_misfit(struct imle *m, int j)
+{
+    return *imle_expert_misfits(m, j);
 }
 
 void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input)

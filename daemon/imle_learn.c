@@ -89,33 +89,44 @@ static int bound_shares(struct imle *m)
     return j;
 }
 
-/* log h_j of every expert whose bound is not negligible; the others keep their bound. shares->best
- * is known already. */
-static void compute_shares(struct imle *m, struct shares *shares)
+/* log h_j of n neighbours from j on, all in one block where experts answer in blocks. */
+static void share_out(struct imle *m, int j, int n, struct shares *shares)
 {
-    int first = shares->best;
+    const double *misfits = imle_expert_misfits(m, j);
+    double top = m->kernels->bounds(n, m->log_h + j, -0.5, misfits, m->log_h + j);
 
-    for (int j = 0; j < m->M; j++) {
-        if (m->log_h[j] < shares->largest - negligible || j == first)
-            continue;
-        m->log_h[j] -= 0.5 * imle_expert_misfit(m, j);
-        if (m->log_h[j] > shares->largest) {
-            shares->largest = m->log_h[j];
-            shares->best = j;
-        }
-    }
+    if (top <= shares->largest)
+        return;
+    shares->largest = top;
+    while (m->log_h[j] < top)
+        j++;
+    shares->best = j;
 }
 
+static bool any_over(const double *values, int n, double limit)
+{
+    for (int i = 0; i < n; i++)
+        if (values[i] >= limit)
+            return true;
+    return false;
+}
+
+/* Begins where most is to be expected; an expert whose bound, or share, is negligible beside the
+ * largest of the shares met so far is so beside the largest of all. */
 static struct shares gather_shares(struct imle *m)
 {
+    int step = m->small ? KERNEL_LANES : 1;
     struct shares shares = {.best = -1};
 
     if (m->M == 0)
         return shares;
     shares.best = bound_shares(m);
-    m->log_h[shares.best] -= 0.5 * imle_expert_misfit(m, shares.best);
-    shares.largest = m->log_h[shares.best];
-    compute_shares(m, &shares);
+    shares.largest = m->log_h[shares.best] - 0.5 * imle_expert_misfit(m, shares.best);
+    for (int j = 0; j < m->M; j += step) {
+        int n = m->M - j < step ? m->M - j : step;
+        if (any_over(m->log_h + j, n, shares.largest - negligible))
+            share_out(m, j, n, &shares);
+    }
     for (int j = 0; j < m->M; j++)
         if (m->log_h[j] >= shares.largest - negligible)
             m->order[shares.n++] = j;

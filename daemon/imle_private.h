@@ -195,8 +195,10 @@ void imle_regression_write(struct imle *m, int j);
 /* xhat[D] of expert j at the features m->phi. */
 void imle_expert_output(struct imle *m, int j, double *xhat);
 
-/* sum (x - xhat)^2 / Psi of expert j for the x of imle_new_query(). */
+/* sum (x - xhat)^2 / Psi of expert j for the x of imle_new_query(); the second one's from j to the
+ * end of its block, where experts answer in blocks. */
 double imle_expert_misfit(struct imle *m, int j);
+const double *imle_expert_misfits(struct imle *m, int j);
 
 /* by_input[d] = dphi' by_feature[p]: from derivatives by features to those by inputs. */
 void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input);
