@@ -28,11 +28,12 @@ Case linear(int d, int experts, double deviation, int samples_per_tool, double s
     return c;
 }
 
-// A shipped configuration, its outputs in metres.
-learner_config shipped(const char *file, int d, const char *degree)
+// A shipped configuration, its outputs in metres, but for `others`.
+learner_config shipped(const char *file, int d, std::vector<const char *> others)
 {
-    const char *params[] = {"psi0=1e-4", degree};
-    const learner_sources sources = {LEARNER_IMLE, d, 3, &file, 1, params, degree ? 2 : 1};
+    others.push_back("psi0=1e-4");
+    const learner_sources sources = {LEARNER_IMLE,      d, 3, &file, 1, others.data(),
+                                     int(others.size())};
     learner_config config;
     char error[1024];
     if (learner_options_load(&sources, &config, error, sizeof error))
@@ -47,16 +48,6 @@ Case polynomial(const learner_config &config)
                                         "quartic", "quintic", "sextic"};
     Case c{names[config.degree], config.n_inputs, config.capacity, 100000, 60, 0, 0.3, config};
     return c;
-}
-
-// With fewer features more experts fit into the same bytes.
-learner_config as_large_as(const learner_config &larger, learner_config config)
-{
-    size_t bytes = learner_memory(&larger);
-    config.capacity = 1024;
-    while (config.capacity > 1 && learner_memory(&config) > bytes)
-        config.capacity--;
-    return config;
 }
 
 #ifdef REACH_BENCH_TICK
@@ -75,7 +66,6 @@ std::vector<Case> all_cases()
 {
     const char *icub = REACH_ETC_DIR "/learner-icub.yaml";
     const char *kobian = REACH_ETC_DIR "/learner-kobian-offline.yaml";
-    learner_config rich = shipped(icub, 7, nullptr);
     return {
         linear(7, 40, 0.013, 20000, 0.14),
         linear(7, 130, 0.008, 10000, 0.3),
@@ -85,9 +75,9 @@ std::vector<Case> all_cases()
         linear(4, 130, 0.005, 10000, 0.3),
         linear(4, 280, 0.003, 10000, 1.0, 0.2),
         linear(4, 1000, 0.002, 10000, 1.0, 0.5),
-        polynomial(rich),
-        polynomial(as_large_as(rich, shipped(icub, 7, "degree=3"))),
-        polynomial(shipped(kobian, 4, nullptr)),
+        polynomial(shipped(icub, 7, {})),
+        polynomial(shipped(icub, 7, {"degree=3", "capacity=64"})),
+        polynomial(shipped(kobian, 4, {})),
 #ifdef REACH_BENCH_TICK
         tick(1000),
 #endif

@@ -29,8 +29,8 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     add("--samples", type=_count, default=150, help="training samples with each; default 150")
     add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
     add("--period", type=float, default=4.0, help="seconds for each target; default %(default)g")
-    add("--experts", choices=("polynomial", "linear"), default="polynomial",
-        help="what each expert of the model is; default %(default)s")  # fmt: skip
+    add("--experts", choices=("polynomial", *programs.LEARNERS), default="polynomial",
+        help="what an expert of the model is; lwpr: the rival's; default %(default)s")  # fmt: skip
     add("--realtime", action="store_true", help="at the wall's pace instead of as fast as it can")
     add("--keep-images", action="store_true", help="log the cameras too (some 100 kB a pair)")
     return parser.parse_args(arguments)
@@ -70,7 +70,7 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
 
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
-    learner = [programs.LEARNERS["linear"]] if options.experts == "linear" else []
+    learner = [programs.LEARNERS[name] for name in programs.LEARNERS if name == options.experts]
     with session(
         options.out, Stop(), seed=options.seed, configurations=learner,
         realtime=options.realtime, keep_images=options.keep_images,
