@@ -2,6 +2,7 @@
 
 #include "common/bus.h"
 
+#include <reach_marker_t.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -60,6 +61,20 @@ bool robot_on_bus_listen(struct robot_on_bus *robot, int milliseconds)
     return lcm_handle_timeout(robot->lcm, milliseconds) > 0;
 }
 
+static void publish_marker(lcm_t *lcm, const struct observation *seen)
+{
+    const reach_marker_t marker = {
+        .utime = seen->utime,
+        .seq = seen->seq,
+        .seen = seen->seen,
+        .u_right = seen->value[0],
+        .v_right = seen->value[1],
+        .disparity = seen->value[2],
+    };
+
+    reach_marker_t_publish(lcm, "MARKER", &marker);
+}
+
 static void publish(struct robot_on_bus *robot)
 {
     struct fake_robot *body = &robot->robot;
@@ -70,7 +85,7 @@ static void publish(struct robot_on_bus *robot)
     state.lockstep = 1;
     if (body->has_marker) {
         state.vision_due = body->marker.utime;
-        reach_marker_t_publish(robot->lcm, "MARKER", &body->marker);
+        publish_marker(robot->lcm, &body->marker);
     }
     reach_robot_state_t_publish(robot->lcm, "ROBOT_STATE", &state);
 }
