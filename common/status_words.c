@@ -7,14 +7,14 @@
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
-static const char *const behaviours[] = {"none", "babble", "coordinate", "reach"};
+static const char *const behaviours[] = {"none", "babble", "coordinate", "reach", "explore"};
 static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
 static const char *const results[] = {"accepted", "refused, not in this state",
                                       "refused, a value is out of range", "pending",
                                       "failed, see its log"};
 
 static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
-static_assert(COUNT(behaviours) == REACH_STATUS_T_REACH + 1, "a name for each behaviour");
+static_assert(COUNT(behaviours) == REACH_STATUS_T_EXPLORE + 1, "a name for each behaviour");
 static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");
 static_assert(COUNT(results) == REACH_STATUS_T_FAILED + 1, "a name for each result");
 

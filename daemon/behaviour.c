@@ -13,6 +13,8 @@ const struct behaviour_ops *behaviour_for_request(int8_t kind)
         return &behaviour_babble;
     case REACH_REQUEST_T_COORDINATE:
         return &behaviour_coordinate;
+    case REACH_REQUEST_T_EXPLORE:
+        return &behaviour_explore;
     case REACH_REQUEST_T_REACH:
         return &behaviour_reach;
     default:
@@ -45,18 +47,30 @@ enum gaze_state control_gaze(struct control *control, bool may_search)
 void control_task_velocity(struct control *control, const double *x_velocity)
 {
     const struct config *config = control->config;
+    double middle[MAX_JOINTS];
+
+    for (int i = 0; i < config_arm_joints(config); i++)
+        middle[i] = 0.5 * (config->arm_min.value[i] + config->arm_max.value[i]);
+    control_task_velocity_by(control, x_velocity, middle, config->secondary_gain);
+}
+
+void control_task_velocity_by(struct control *control, const double *x_velocity,
+                              const double *posture, double gain)
+{
+    const struct config *config = control->config;
     const double *jacobian = select_jacobian(control->selection);
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
         .n_outputs = SPACE_DIMENSIONS,
         .threshold = config->singular_threshold,
         .damping_max = config->damping_max,
-        .secondary_gain = config->secondary_gain,
+        .secondary_gain = gain,
     };
 
     if (!jacobian)
         return;
     memcpy(taskspace.scale, config->space.scale, sizeof config->space.scale);
+    memcpy(taskspace.posture, posture, sizeof(double) * (size_t)taskspace.n_joints);
     memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
     memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
     taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);

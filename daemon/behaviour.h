@@ -6,6 +6,7 @@
 #define REACH_BEHAVIOUR_H
 
 #include "config.h"
+#include "explore.h"
 #include "gaze.h"
 #include "random.h"
 #include "select.h"
@@ -84,10 +85,12 @@ struct behaviour {
     union {
         struct babble babble;
         struct targets targets;
+        struct explore explore;
     };
 };
 
-extern const struct behaviour_ops behaviour_babble, behaviour_coordinate, behaviour_reach;
+extern const struct behaviour_ops behaviour_babble, behaviour_coordinate, behaviour_reach,
+    behaviour_explore;
 
 /* The table entry of a request's kind, NULL when the kind starts no behaviour. */
 const struct behaviour_ops *behaviour_for_request(int8_t kind);
@@ -102,6 +105,11 @@ enum gaze_state control_gaze(struct control *control, bool may_search);
 
 /* Arm velocities for a wanted task velocity (rad/s, rad/s, px/s) by eq. 4; none without a model. */
 void control_task_velocity(struct control *control, const double *x_velocity);
+
+/* The same with the joints' null space drawn to `posture` (rad) at `gain` (K_s, rad/s) instead of
+ * the middle of their range. */
+void control_task_velocity_by(struct control *control, const double *x_velocity,
+                              const double *posture, double gain);
 
 /* Feedback in terms of what is seen (eq. 5 and 13): `gain` (1/s) times what is left between the
  * marker and `target` (px), as a task velocity (rad/s, rad/s, px/s). `target` becomes this tick's

@@ -41,6 +41,9 @@ struct config {
     struct option_list babble_min, babble_max; /* rad */
     double babble_gain, babble_tolerance, babble_timeout;
 
+    double explore_noise, explore_speed, explore_widen, explore_patience;
+    double explore_secondary_gain, explore_tolerance;
+
     int task_space;                         /* enum space_kind */
     double task_gain;                       /* K_m of eq. 4, 1/s */
     double task_smoothing;                  /* of the set-point of reaching, s */

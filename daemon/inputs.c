@@ -58,6 +58,7 @@ bool inputs_request_ok(const struct config *config, const reach_request_t *reque
     case REACH_REQUEST_T_EMERGENCY:
         return true;
     case REACH_REQUEST_T_BABBLE:
+    case REACH_REQUEST_T_EXPLORE:
         return request->count >= 1 && request->count <= count_most;
     case REACH_REQUEST_T_COORDINATE:
         return config->space.n_head > 0 && targets_ok(config, request);

@@ -127,10 +127,29 @@ bool sight_fixated(const struct sight *sight)
 
 bool sight_centred(const struct sight *sight)
 {
+    return sight_within(sight, sight->config->fixation_tolerance);
+}
+
+bool sight_within(const struct sight *sight, double pixels)
+{
     const double *image = sight->frame[sight->last].image;
 
-    return sight->count > 0 &&
-           (!sight->config->space.fixates || within_tolerance(sight, image[0], image[1]));
+    return sight->count > 0 && (!sight->config->space.fixates ||
+                                (fabs(image[0]) <= pixels && fabs(image[1]) <= pixels));
+}
+
+double sight_eccentricity(const struct sight *sight)
+{
+    return fmax(fabs(sight->carried[0]), fabs(sight->carried[1]));
+}
+
+void sight_position(const struct sight *sight, const double *q, double x[SPACE_DIMENSIONS])
+{
+    int n_arm = config_arm_joints(sight->config);
+
+    space_to_task(&sight->config->space, sight->carried, x);
+    for (int i = 0; i < sight->config->space.n_head; i++)
+        x[i] += q[n_arm + i];
 }
 
 void sight_pair(const struct sight *sight, int n, double *q, double *x, int64_t *utime)

@@ -61,6 +61,16 @@ bool sight_fixated(const struct sight *sight);
  * task space needs no fixation it always does. */
 bool sight_centred(const struct sight *sight);
 
+/* The newest frame lies within `pixels` of the centre; always, where nothing is to be fixated. */
+bool sight_within(const struct sight *sight, double pixels);
+
+/* How far the marker is from the image centre by now, px. */
+double sight_eccentricity(const struct sight *sight);
+
+/* Where the end-effector is by now in task space (space.h), as it was last seen, with all joints at
+ * q (rad). Off the image centre this is as good as eq. 11's relation is. */
+void sight_position(const struct sight *sight, const double *q, double x[SPACE_DIMENSIONS]);
+
 /* One training pair from the last n frames, oldest to newest: arm joints q (rad), measured task
  * position x (space.h) and the middle of the exposures. What
  * is left between marker and image centre is added to the head's angles.

@@ -44,9 +44,8 @@ void taskspace_centring_gradient(const struct taskspace *taskspace, const double
                                  double *gradient)
 {
     for (int i = 0; i < taskspace->n_joints; i++) {
-        const double middle = 0.5 * (taskspace->q_max[i] + taskspace->q_min[i]);
-        const double half = middle - taskspace->q_max[i];
-        gradient[i] = 2.0 / taskspace->n_joints * (q[i] - middle) / (half * half);
+        const double half = 0.5 * (taskspace->q_max[i] - taskspace->q_min[i]);
+        gradient[i] = 2.0 / taskspace->n_joints * (q[i] - taskspace->posture[i]) / (half * half);
     }
 }
 

@@ -11,14 +11,15 @@ extern "C" {
 /* How to invert. Task rows are divided by `scale` first, so that rows of different units share
  * one threshold and one damping. */
 struct taskspace {
-    int n_joints;              /* columns of J, 1 .. MAX_JOINTS */
-    int n_outputs;             /* rows of J, 1 .. MAX_OUTPUTS */
-    double scale[MAX_OUTPUTS]; /* task units that count as one, > 0 */
-    double threshold;          /* delta_T of eq. 9, scaled task units per rad */
-    double damping_max;        /* lambda_MAX of eq. 9, same unit */
-    double secondary_gain;     /* K_s of eq. 4, rad/s for a gradient of 1/rad */
-    double q_min[MAX_JOINTS];  /* rad */
-    double q_max[MAX_JOINTS];  /* rad */
+    int n_joints;               /* columns of J, 1 .. MAX_JOINTS */
+    int n_outputs;              /* rows of J, 1 .. MAX_OUTPUTS */
+    double scale[MAX_OUTPUTS];  /* task units that count as one, > 0 */
+    double threshold;           /* delta_T of eq. 9, scaled task units per rad */
+    double damping_max;         /* lambda_MAX of eq. 9, same unit */
+    double secondary_gain;      /* K_s of eq. 4, rad/s for a gradient of 1/rad */
+    double q_min[MAX_JOINTS];   /* rad */
+    double q_max[MAX_JOINTS];   /* rad */
+    double posture[MAX_JOINTS]; /* where M(q) is least, rad; eq. 6: the middle of the range */
 };
 
 /* Joint velocities (rad/s) for the task velocity `x_velocity` (task units/s) at joints q (rad)
@@ -27,7 +28,7 @@ struct taskspace {
 double taskspace_velocity(const struct taskspace *taskspace, const double *jacobian,
                           const double *x_velocity, const double *q, double *q_velocity);
 
-/* Gradient of M(q), eq. 6 and 7: pulls every joint to the middle of its range. 1/rad. */
+/* Gradient of M(q), eq. 6 and 7: pulls every joint to `posture`. 1/rad. */
 void taskspace_centring_gradient(const struct taskspace *taskspace, const double *q,
                                  double *gradient);
 

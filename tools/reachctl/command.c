@@ -148,6 +148,8 @@ static const struct command looking_commands[] = {
 static const struct command daemon_commands[] = {
     {"babble", "N", 1, CALL_DAEMON, REACH_REQUEST_T_BABBLE, fill_babble,
      "collect N samples; --seed S, --frozen tests the model instead of teaching it"},
+    {"explore", "N", 1, CALL_DAEMON, REACH_REQUEST_T_EXPLORE, fill_babble,
+     "learn to reach from nothing: goals of its own, N samples; --seed S"},
     {"coordinate", "", 0, CALL_DAEMON, REACH_REQUEST_T_COORDINATE, fill_coordinate,
      "the head looks at targets (--file F: lines 'u v disparity'), the arm follows"},
     {"star", "", 0, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_star,

@@ -22,7 +22,7 @@ static const char usage[] =
     "  --wait          until what was asked for has ended\n"
     "  --json          status or doctor as JSON\n"
     "  --once          top: one frame, then the end\n"
-    "  --seed S        of babbling's random configurations; default 1\n"
+    "  --seed S        of random configurations and goals; default 1\n"
     "  --frozen        use the model without teaching it\n"
     "  --file F        targets of coordinate, lines 'u v disparity' in pixels\n"
     "  --period S      time for each target\n"

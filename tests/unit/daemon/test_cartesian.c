@@ -139,6 +139,9 @@ START_TEST(it_reaches_with_each_tool_that_it_has_met)
     ck_assert_int_eq(outputs.status.context, 2);
     /* Nothing but the measured place says that it is gone. */
     robot.tool = 0;
+    for (int i = 0; i < 50; i++)
+        step();
+    ck_assert_int_eq(outputs.status.context, 1);
     hand = worst_reach(false);
     ck_assert_msg(hand < 0.003, "hand again: %g m", hand);
     ck_assert_int_eq(outputs.status.context, 1);

@@ -28,6 +28,7 @@ struct taskspace settings(int rows, int joints)
     for (int i = 0; i < joints; i++) {
         t.q_min[i] = -1 - 0.1 * i;
         t.q_max[i] = 1 + 0.2 * i;
+        t.posture[i] = (t.q_min[i] + t.q_max[i]) / 2;
     }
     return t;
 }

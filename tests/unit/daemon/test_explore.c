@@ -1,0 +1,157 @@
+/* Reaching from nothing: no babbling, on both kinds of robot, without bodies. */
+#include "fake_robot.h"
+#include "fixture.h"
+#include "tests/unit/suite.h"
+#include "tick.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct config config;
+static struct arena *arena;
+static struct tick *tick;
+static struct fake_robot robot;
+static struct tick_inputs inputs;
+static struct tick_outputs outputs;
+static int64_t request_seq;
+static double low[MAX_JOINTS], high[MAX_JOINTS]; /* of the joints so far, rad */
+static double least[3], most[3];                 /* of the position so far, m */
+
+static void step(void)
+{
+    inputs.has_state = true;
+    inputs.state = fake_robot_state(&robot);
+    inputs.n_observations = robot.has_marker;
+    inputs.observation[0] = robot.marker;
+    tick_decide(tick, &inputs, robot.now, &outputs);
+    while (tick_learn(tick))
+        ;
+    tick_report(tick, robot.now, &outputs);
+    inputs.n_requests = 0;
+    for (int i = 0; i < config_arm_joints(&config); i++) {
+        low[i] = fmin(low[i], robot.q[i]);
+        high[i] = fmax(high[i], robot.q[i]);
+    }
+    if (config.space.kind == SPACE_CARTESIAN) {
+        double position[3];
+        fake_robot_position(&robot, position);
+        for (int axis = 0; axis < 3; axis++) {
+            least[axis] = fmin(least[axis], position[axis]);
+            most[axis] = fmax(most[axis], position[axis]);
+        }
+    }
+    fake_robot_step(&robot, &outputs.command);
+}
+
+static void begin(const char *name, double noise)
+{
+    char error[256];
+
+    config = fixture_robot_config(name);
+    arena = arena_create(tick_memory(&config));
+    tick = tick_create(&config, arena, error, sizeof error);
+    ck_assert_msg(tick != NULL, "%s", error);
+    fake_robot_init(&robot, &config);
+    robot.noise = noise;
+    for (int axis = 0; axis < 3; axis++) {
+        least[axis] = INFINITY;
+        most[axis] = -INFINITY;
+    }
+    memcpy(low, robot.q, sizeof low);
+    memcpy(high, robot.q, sizeof high);
+    step();
+}
+
+static void run(reach_request_t request, int most_ticks)
+{
+    request.seq = ++request_seq;
+    inputs.request[0] = request;
+    inputs.n_requests = 1;
+    step();
+    ck_assert_int_eq(outputs.status.request_result, REACH_STATUS_T_ACCEPTED);
+    for (int i = 0; outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
+        ck_assert_msg(i < most_ticks, "%d of %d after %d ticks", outputs.status.progress,
+                      outputs.status.progress_total, i);
+        step();
+    }
+}
+
+static void explore(int count, int64_t seed)
+{
+    reach_request_t request = {
+        .kind = REACH_REQUEST_T_EXPLORE, .count = count, .seed = seed, .learn = 1};
+
+    run(request, 10 * count);
+    ck_assert_int_eq(outputs.status.samples, count);
+}
+
+/* What is seen of the end-effector, without noise: px, or m. */
+static void now(double *seen)
+{
+    if (config.space.kind == SPACE_CARTESIAN)
+        fake_robot_position(&robot, seen);
+    else
+        fake_robot_image(&robot, seen);
+}
+
+/* Share of `n` targets, `spread` about the middle of the range, that end within `bound`. */
+static double reached(int n, const double middle[3], const double spread[3], double bound)
+{
+    struct random_state random = random_seed(5);
+    int good = 0;
+
+    for (int i = 0; i < n; i++) {
+        reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 4};
+        double seen[3], sum = 0;
+        for (int axis = 0; axis < 3; axis++)
+            request.target[0][axis] =
+                middle[axis] + random_uniform(&random, -spread[axis], spread[axis]);
+        run(request, 1000);
+        now(seen);
+        for (int axis = 0; axis < 3; axis++)
+            sum += pow(seen[axis] - request.target[0][axis], 2);
+        good += sqrt(sum) < bound;
+    }
+    return (double)good / n;
+}
+
+START_TEST(it_reaches_in_metres_from_nothing)
+{
+    double middle[3], share;
+
+    begin("icub.yaml", 0.0005);
+    now(middle);
+    explore(2000, 3);
+    for (int axis = 0; axis < 3; axis++)
+        ck_assert_double_gt(most[axis] - least[axis], 0.12);
+    /* Also the joints that no place in particular asks for. */
+    for (int i = 0; i < 7; i++)
+        ck_assert(high[i] - low[i] > 0.45 * (config.arm_max.value[i] - config.arm_min.value[i]));
+    share = reached(20, middle, (double[]){0.05, 0.08, 0.08}, 0.01);
+    ck_assert_msg(share >= 0.9, "%g of the targets", share);
+    ck_assert_int_eq(outputs.status.gated, 0);
+    arena_destroy(arena);
+}
+END_TEST
+
+START_TEST(it_reaches_in_the_image_from_nothing)
+{
+    double share;
+
+    begin("kobian.yaml", 0.3);
+    explore(2000, 3);
+    share = reached(16, (double[]){0, 0, 20}, (double[]){50, 50, 0}, 5);
+    ck_assert_msg(share >= 0.9, "%g of the targets", share);
+    ck_assert_int_eq(outputs.status.gated, 0);
+    arena_destroy(arena);
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {it_reaches_in_metres_from_nothing,
+                                  it_reaches_in_the_image_from_nothing};
+
+    return SUITE_RUN("explore", tests);
+}
