@@ -7,10 +7,21 @@
 
 /* What may change; a name that ends in '.' stands for all that begin so. */
 static const char *const live[] = {
-    "eyes.stale",       "motion.",          "head.gain",           "head.search_velocity",
-    "fixation.",        "babble.",          "head.search_dwell",   "task.gain",
-    "task.smoothing",   "task.follow_gain", "task.secondary_gain", "task.singular_threshold",
-    "task.damping_max", "learner.quota",
+    "eyes.stale",
+    "motion.",
+    "head.gain",
+    "head.search_velocity",
+    "fixation.",
+    "babble.",
+    "explore.",
+    "head.search_dwell",
+    "task.gain",
+    "task.smoothing",
+    "task.follow_gain",
+    "task.secondary_gain",
+    "task.singular_threshold",
+    "task.damping_max",
+    "learner.quota",
 };
 
 static bool may_change(const char *name)
