@@ -31,12 +31,13 @@ class Recorder:
 
     def run(self) -> None:
         """Also what is still waiting when it is told to stop is written."""
-        waiting = 1
+        waiting, broken = 1, 0
         while waiting or not self._stop:
             try:
-                waiting = self._lcm.handle_timeout(POLL_MS)
-            except OSError:  # the signal broke into the call
-                if not self._stop:
+                waiting, broken = self._lcm.handle_timeout(POLL_MS), 0
+            except OSError:  # a signal broke into the call; it may be noted only after this
+                broken += 1
+                if broken > 3:
                     raise
         self._log.close()
 

@@ -107,10 +107,10 @@ class Report(unittest.TestCase):
     @classmethod
     def call(cls) -> str:
         with contextlib.redirect_stdout(io.StringIO()) as said, \
-             contextlib.redirect_stderr(io.StringIO()):  # fmt: skip
+             contextlib.redirect_stderr(io.StringIO()) as complained:  # fmt: skip
             status = paper.main(cls.arguments)
         if status != 0:
-            raise AssertionError(said.getvalue())
+            raise AssertionError(complained.getvalue())
         return said.getvalue()
 
     def test_every_row_is_filled(self):

@@ -41,8 +41,10 @@ ICUB = Robot(
 
 # All others have the same names for both.
 _DAEMON_ONLY = {"kind", "queue", "quota"}
-# Those of other shape or unit, besides the noise of each output: standard deviations, degrees.
+# Those of other shape or unit: standard deviations, degrees, and numbers of each output, of which a
+# file may have those of other robots, too.
 _CONVERTED = {"reach", "reference"}
+_OF_OUTPUTS = ("noise_angle", "noise_disparity", "noise_position", "lwpr.norm_")
 
 
 def options(robot: Robot, learner: str) -> dict:
@@ -79,9 +81,10 @@ def parameters(robot: Robot, given: dict) -> list[str]:
     }
     if is_lwpr:
         result["lwpr.norm_out"] = [_radians(name, given[name]) for name in norms]
-    known = _DAEMON_ONLY | _CONVERTED | set(robot.noise) | set(norms)
     for name, value in given.items():
-        if name not in known and (is_lwpr or not name.startswith("lwpr.")):
+        converted = name in _CONVERTED or name.startswith(_OF_OUTPUTS)
+        of_kind = is_lwpr or not name.startswith("lwpr.")
+        if name not in _DAEMON_ONLY and not converted and of_kind:
             result[name] = value
     return [f"{name}={_text(value)}" for name, value in result.items()]
 

@@ -1,0 +1,143 @@
+"""The iCub-like robot's numbers and figures, on a made-up log."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import synthetic
+from reach.paper import drawing, i1, i2, icub, rows
+from reach.record import read_log
+
+SIZES = {"samples": 30, "tests": 30, "cube_seconds": 2.0}
+MIDDLE = np.array([0.4, 0.0, 0.6])
+WANTED = np.vstack([i2.start(MIDDLE), i2.targets(MIDDLE)])
+PHASES = (*i1.SETS.values(), *i1.PHASES, *(f"cube_{name}" for name in i2.CUBES))
+MISSED = 0.004  # m, of every target
+
+
+class Cube(unittest.TestCase):
+    def test_it_has_every_edge_and_two_diagonals(self):
+        moves = np.diff(WANTED, axis=0) / i2.EDGES
+        turned = np.abs(moves).round().sum(axis=1)
+        self.assertEqual(len(moves), 16)
+        self.assertEqual(list(turned).count(3), 2)
+        edges = {
+            frozenset((tuple(a), tuple(b)))
+            for a, b, n in zip(WANTED.round(4)[:-1], WANTED.round(4)[1:], turned, strict=True)
+            if n == 1
+        }
+        self.assertEqual(len(edges), 12)
+
+    def test_sums_of_components_are_those_of_figure_7(self):
+        sums = np.abs(np.diff(WANTED, axis=0)).sum(axis=1)
+        self.assertAlmostEqual(sums.min(), 0.05)
+        self.assertAlmostEqual(sums.max(), 0.25)
+
+
+class Order(unittest.TestCase):
+    """What is asked of the robot, in which order."""
+
+    def setUp(self):
+        self.said = []
+        icub.perform(self, SIZES, seed=2)
+
+    def take_tool(self, tool):
+        self.said.append(("tool", tool))
+
+    def babble(self, name, count, seed, learn):
+        self.said.append(("babble", name, learn))
+
+    def reach_for(self, name, targets, period, learn):
+        self.said.append(("reach", name, learn))
+
+    def save(self, number):
+        self.said.append(("save", number))
+
+    def load(self, number):
+        self.said.append(("load", number))
+
+    def holding(self, wanted: str) -> int:
+        tool = 0
+        for kind, what, *_ in self.said:
+            if kind == "tool":
+                tool = what
+            if what == wanted:
+                return tool
+        raise AssertionError(wanted)
+
+    def test_each_phase_and_cube_once_with_its_tool(self):
+        names = [entry[1] for entry in self.said if entry[0] in ("babble", "reach")]
+        self.assertEqual(sorted(names), sorted(PHASES))
+        self.assertEqual([self.holding(name) for name in i1.PHASES], [0, 1, 0, 2, 0])
+        for name in i2.CUBES:
+            tool = 0 if name.startswith("hand") else 1 if name.startswith("stick") else 2
+            self.assertEqual(self.holding(f"cube_{name}"), tool, name)
+
+    def test_learning_while_reaching_is_undone(self):
+        learned = [i for i, entry in enumerate(self.said) if entry[0] == "reach" and entry[2]]
+        self.assertEqual(len(learned), 3)
+        self.assertLess(self.said.index(("save", 1)), learned[0])
+        self.assertGreater(self.said.index(("load", 1)), learned[-1])
+        self.assertLess(self.said.index(("load", 1)), self.said.index(("babble", "phase2", True)))
+
+    def test_every_phase_is_weighed(self):
+        self.assertEqual(set(icub.weights(SIZES)), set(PHASES))
+
+
+class Numbers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = Path(cls.temporary.name)
+        run = synthetic.make(folder, 30, PHASES, {"cube": WANTED}, MISSED, inputs=7)
+        run["learner"] = "imle"
+        cls.series = folder / "series"
+        cls.numbers = icub.analyse(read_log(folder / "run.lcmlog"), run, cls.series)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_cubes(self):
+        self.assertEqual(self.numbers["I2.L.corners_within_1cm"], 16)
+        self.assertAlmostEqual(self.numbers["I2.stick.final_error_max_mm"], 4.0, places=4)
+        self.assertLess(self.numbers["I2.hand.straightness_max"], 0.12)
+
+    def test_every_row_has_a_number(self):
+        asked = icub.rows(("imle",))
+        self.assertEqual([row.id for row in asked if row.number not in self.numbers], [])
+        ids = [row.id for row in asked]
+        for wanted in ("I1.imle.s1.phase1_mm", "I2.L.corners_within_1cm"):
+            self.assertIn(wanted, ids)
+
+    def test_learners_have_rows_of_their_own(self):
+        ids = [row.id for row in icub.rows(("imle", "linear", "lwpr"))]
+        self.assertEqual(len(ids), len(set(ids)))
+        self.assertIn("I1.lwpr.s2.phase3_mm", ids)
+        self.assertIn("I2.lwpr.L.corners_within_1cm", ids)
+
+    def test_bars(self):
+        bars = {row.id: row.bar for row in icub.rows(("imle", "lwpr"))}
+        self.assertEqual((bars["I1.imle.s1.phase1_mm"], bars["I1.imle.s2.phase2_mm"]), (3, 4))
+        self.assertIsNone(bars["I1.imle.s2.phase1_mm"])
+        self.assertEqual(bars["I2.stick_new_3.corners_within_1cm"], 16)
+        self.assertIsNone(bars["I2.stick_new_1.corners_within_1cm"])
+        row = next(r for r in icub.rows(("imle",)) if r.id == "I2.L.corners_within_1cm")
+        self.assertIs(rows.Row.met(row, 15.0), False)
+
+    def test_every_figure_is_drawn(self):
+        data = drawing.Data({"imle": [self.series]})
+        shown = icub.figures(("I1", "I2"))
+        self.assertEqual([figure.number for figure in shown], [str(n) for n in range(5, 14)])
+        for figure in shown:
+            self.assertTrue(figure.draw(data).axes)
+            self.assertEqual([n for n in figure.series if not data.path(n).exists()], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
