@@ -99,6 +99,11 @@ class Bus:
             lambda: self._lcm.publish("REACH_HELLO", hello.encode()),
         )
 
+    def forget(self) -> None:
+        """The robot's time has begun anew: what was heard belongs to another."""
+        self.status = self.truth = self.marker = None
+        self.samples.clear()
+
     def prepare(self, kind: int, **fields) -> reach.request_t:
         """A request under a number of its own, not yet sent."""
         self._request_seq += 1

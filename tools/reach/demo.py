@@ -15,6 +15,7 @@ from .messages import ROOT
 from .processes import ProcessDiedError
 from .progress import Progress
 from .record import read_log
+from .recorder import ALL_BUT_IMAGES
 from .session import Stop, session
 
 TOOL = 1  # the simulator's first tool, the rubber tube
@@ -73,7 +74,7 @@ def run(options: argparse.Namespace, phases: list[dict]) -> None:
     learner = [programs.LEARNERS[name] for name in programs.LEARNERS if name == options.experts]
     with session(
         options.out, Stop(), seed=options.seed, configurations=learner,
-        realtime=options.realtime, keep_images=options.keep_images,
+        realtime=options.realtime, channels=".*" if options.keep_images else ALL_BUT_IMAGES,
     ) as (bus, clock):  # fmt: skip
         experiment = Experiment(bus, clock, Progress(weights(options)), phases)
         perform(experiment, bus, clock, options)

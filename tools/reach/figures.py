@@ -33,7 +33,7 @@ STYLE = {
 matplotlib.rcParams.update(STYLE)
 
 
-def _figure(rows: int, columns: int, height: float, **options):
+def canvas(rows: int = 1, columns: int = 1, height: float = 3.2, **options):
     figure = Figure(figsize=(9.0, height), layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
@@ -61,7 +61,7 @@ def eyes(folder: Path) -> Figure | None:
     names = _names(folder)
     if not names:
         return None
-    figure, axes = _figure(len(names), 2, 3.4 * len(names))
+    figure, axes = canvas(len(names), 2, 3.4 * len(names))
     for row, name in zip(axes, names, strict=True):
         for axis, side in zip(row, ("left", "right"), strict=True):
             _eye(axis, folder, name, side)
@@ -73,7 +73,7 @@ def result(record: Record, run: dict, folder: Path) -> Figure | None:
     names = _names(folder)
     if len(names) < 2:
         return None
-    figure, axes = _figure(2, 2, 7.6, height_ratios=(3.2, 4.2))
+    figure, axes = canvas(2, 2, 7.6, height_ratios=(3.2, 4.2))
     for column, name in enumerate(names):
         _eye(axes[0, column], folder, name, "right")
         _star(axes[1, column], record, run, name)
@@ -82,7 +82,7 @@ def result(record: Record, run: dict, folder: Path) -> Figure | None:
 
 def learning(record: Record, run: dict, result: dict) -> Figure:
     """Errors of predictions made before each sample was learned, and those of the test sets."""
-    figure, axes = _figure(3, 1, 6.6, sharex=True)
+    figure, axes = canvas(3, 1, 6.6, sharex=True)
     first = 0
     for name in ("hand", "tool"):
         rows = summary.samples_of(record, summary.phase_named(run, f"learn_{name}"))
@@ -124,7 +124,7 @@ def _star(axis, record: Record, run: dict, name: str) -> None:
 
 def stars(record: Record, run: dict) -> Figure:
     """The ball in the right image during both STARs."""
-    figure, axes = _figure(1, 2, 4.7, sharex=True, sharey=True)
+    figure, axes = canvas(1, 2, 4.7, sharex=True, sharey=True)
     for axis, name in zip(axes[0], ("hand", "tool"), strict=True):
         _star(axis, record, run, name)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside upper center")
@@ -133,7 +133,7 @@ def stars(record: Record, run: dict) -> Figure:
 
 def star_series(record: Record, run: dict) -> Figure:
     """Error to the target and joints against time, both STARs."""
-    figure, axes = _figure(2, 2, 5.4, sharex="col", sharey="row")
+    figure, axes = canvas(2, 2, 5.4, sharex="col", sharey="row")
     targets = metrics.star_targets()
     for column, name in enumerate(("hand", "tool")):
         segments = summary.star_segments(record, summary.phase_named(run, f"star_{name}"))
@@ -157,7 +157,7 @@ def star_series(record: Record, run: dict) -> Figure:
 
 def times(record: Record) -> Figure:
     """How long ticks and stereo pairs took."""
-    figure, axes = _figure(1, 2, 2.9)
+    figure, axes = canvas(1, 2, 2.9)
     shown = (("a tick of the daemon", record["REACH_STATUS"]["compute_us"]),
              ("a stereo pair in vision", record["MARKER"]["compute_us"]))  # fmt: skip
     for axis, (title, values) in zip(axes[0], shown, strict=True):

@@ -25,6 +25,7 @@ class Processes:
     def __init__(self, folder: Path):
         self._folder = folder
         self._running: dict[str, subprocess.Popen] = {}
+        self._commands: dict[str, list] = {}
 
     def __enter__(self) -> "Processes":
         return self
@@ -34,7 +35,9 @@ class Processes:
 
     def start(self, name: str, command: list) -> None:
         """Its output goes to FOLDER/NAME.log. A session of its own keeps Ctrl-C from it."""
-        with self._log(name).open("wb") as log:
+        mode = "ab" if name in self._commands else "wb"  # a restart goes on in the same log
+        self._commands[name] = command
+        with self._log(name).open(mode) as log:
             try:
                 self._running[name] = subprocess.Popen(
                     [str(word) for word in command],
@@ -43,6 +46,20 @@ class Processes:
                 )  # fmt: skip
             except FileNotFoundError:
                 raise ProcessDiedError(f"{command[0]} is missing; ./run build makes it") from None
+
+    def restart(self, name: str) -> None:
+        """Kills it outright, and starts it again as it was."""
+        self._running[name].kill()
+        self._running[name].wait()
+        self.start(name, self._commands[name])
+
+    def runs(self, name: str) -> bool:
+        return name in self._running
+
+    def memory_kb(self, name: str) -> int:
+        """What it holds in memory at present."""
+        status = Path(f"/proc/{self._running[name].pid}/status").read_text()
+        return int(status.partition("VmRSS:")[2].split()[0])
 
     def check(self) -> None:
         """Raises ProcessDiedError with the last line of whoever has ended."""

@@ -2,8 +2,9 @@
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from .bus import DEFAULT_URL, Bus
 from .messages import ROOT, reach
@@ -26,20 +27,21 @@ def start(
     robot: str = "kobian",
     configurations: Sequence[Path] = (),
     realtime: bool = False,
-    keep_images: bool = False,
-    channels: str | None = None,
+    settings: Mapping[str, object] = MappingProxyType({}),
+    channels: str = ALL_BUT_IMAGES,
     simrobot: tuple = (),
 ) -> None:
     """Starts recorder, reachd, simrobot, whose further options are `simrobot`, and vision where the
     robot has eyes.
 
-    reachd reads `configurations` over the robot's. `channels`: a pattern of what is logged."""
-    channels = channels or (".*" if keep_images else ALL_BUT_IMAGES)
+    reachd reads `configurations` over the robot's, and over them `settings` of single options;
+    the log is of the channels that match."""
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
     etc, url = ROOT / "etc", ["--url", DEFAULT_URL]
     files = (etc / f"{robot}.yaml", *configurations)
     daemon = [word for path in files for word in ("--config", path)]
+    daemon += [word for item in settings.items() for word in ("--set", "{}={}".format(*item))]
     eyes = etc / f"vision-{robot}.yaml"
     commands = {
         "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,

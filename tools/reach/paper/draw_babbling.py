@@ -3,8 +3,9 @@
 import numpy as np
 
 from .. import metrics
+from ..figures import canvas
 from . import series
-from .drawing import COLOURS, LEARNER_WORDS, LEARNERS, Data, Shown, band, canvas, legend
+from .drawing import COLOURS, LEARNER_WORDS, LEARNERS, Data, Shown, band, legend
 
 _JOINTS = ("shoulder pitch, deg", "shoulder yaw, deg", "shoulder roll, deg", "elbow, deg")
 _PAPER_MEAN = {"hand": 2.79, "tool": 2.74}  # section 7.1: mean of [deg, deg, px] at sample 1000

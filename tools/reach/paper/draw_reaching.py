@@ -3,8 +3,9 @@
 import numpy as np
 
 from .. import metrics
+from ..figures import canvas
 from . import series
-from .drawing import COLOURS, MEASURED, Data, Shown, canvas, legend
+from .drawing import COLOURS, MEASURED, Data, Shown, legend
 
 _ARM = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow")
 _HEAD = ("neck yaw", "neck pitch")

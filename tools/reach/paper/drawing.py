@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from .. import figures
 from . import series
@@ -49,11 +48,6 @@ class Shown:
     series: tuple[str, ...]
     draw: object  # Callable[[Data], Figure]
     learner: str = "imle"  # without whose runs it cannot be drawn
-
-
-def canvas(rows: int = 1, columns: int = 1, height: float = 3.2, **options):
-    figure = Figure(figsize=(9.0, height), layout="constrained")
-    return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
 def legend(figure, axis, columns: int = 5) -> None:

@@ -1,0 +1,218 @@
+"""Hours of robot time in lockstep: learning, reaching, tools swapped and programs killed at random.
+
+What must stay as it was: memory, the number of experts, the errors, and every sample that the
+daemon said was safe on disk.
+"""
+
+import argparse
+import json
+import random
+import shutil
+import signal
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from . import metrics, programs
+from .bus import Bus, NoAnswerError
+from .clock import START_UTIME, HeldClock
+from .experiment import Experiment, ExperimentError
+from .messages import ROOT, reach
+from .processes import ProcessDiedError, Processes
+from .progress import Progress
+from .session import Stop
+from .soak_verdict import HABITS, draw, judge
+
+TOOLS = 2  # the bare hand and the simulator's first tool
+KILLS_AN_HOUR = 30.0  # of robot time
+LEARN, PROBE, TARGETS = 15, 8, 4
+PERIOD_SECONDS = 2.0  # for each target
+ROLES = {"reachd": reach.hello_t.DAEMON, "vision": reach.hello_t.VISION,
+         "simrobot": reach.hello_t.SIMULATOR}  # fmt: skip
+
+
+def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="run soak", description=__doc__)
+    add = parser.add_argument
+    add("minutes", type=_minutes, help="how long, by the wall's clock")
+    add("--seed", type=int, default=1, help="of every random choice; default %(default)s")
+    add("--robot", choices=("kobian", "icub"), default="kobian", help="default %(default)s")
+    add("--kills", type=float, default=KILLS_AN_HOUR, metavar="N",
+        help="programs killed in an hour of robot time; default %(default)g")  # fmt: skip
+    add("--out", type=Path, default=ROOT / "out/soak", help="folder of the results")
+    return parser.parse_args(arguments)
+
+
+def _minutes(text: str) -> float:
+    value = float(text)
+    if not 0 < value <= 100_000:
+        raise argparse.ArgumentTypeError("a number of minutes above 0 is wanted")
+    return value
+
+
+class KilledError(Exception):
+    """A program was killed and started again, and what went on is not as it was."""
+
+
+class RestlessClock(HeldClock):
+    """A held clock under which programs die now and then."""
+
+    def __init__(self, bus: Bus, strike: Callable[[float], None]):
+        super().__init__(bus)
+        self.robot_seconds = 0.0
+        self._strike = strike
+
+    def advance(self, seconds: float) -> None:
+        super().advance(seconds)
+        self.robot_seconds += seconds
+        self._strike(seconds)
+
+
+class Silence:
+    """Progress of the single requests, which nobody need see."""
+
+    def update(self, *_) -> None:
+        pass
+
+    def finish(self, *_) -> None:
+        pass
+
+
+class Soak:
+    def __init__(self, options: argparse.Namespace, processes: Processes, bus: Bus):
+        self._random = random.Random(options.seed)
+        self._processes = processes
+        self._bus = bus
+        self._kill_rate = options.kills / 3600.0
+        self._clock = RestlessClock(bus, self._strike)
+        self._progress = Progress({"soak": 1.0})
+        self._experiment = Experiment(bus, self._clock, Silence(), [])
+        self._end = time.monotonic() + options.minutes * 60
+        self._minutes = options.minutes
+        self._number = 0
+        self.rows: list[dict] = []
+        self.kills: list[dict] = []
+
+    def run(self) -> None:
+        self._settle()
+        while time.monotonic() < self._end:
+            try:
+                self._habit()
+            except KilledError:
+                self._settle()
+
+    def _habit(self) -> None:
+        """One thing that a robot is asked for, then a look at how everything is."""
+        self._number += 1
+        habit = self._random.choice(HABITS)
+        if habit == "tool":
+            self._experiment.take_tool(self._random.randrange(TOOLS))
+        elif habit == "reach":
+            targets = metrics.star_targets()
+            self._experiment.star(habit, targets[:TARGETS], PERIOD_SECONDS)
+        else:
+            self._experiment.babble(habit, LEARN, self._seed(), learn=True)
+        self._look(habit)
+
+    def _look(self, habit: str) -> None:
+        before = len(self._bus.samples)
+        self._experiment.babble("probe", PROBE, self._seed(), learn=False)
+        status = self._bus.status
+        samples = self._bus.samples[before:]
+        del self._bus.samples[:]
+        row = {
+            "robot_s": round(self._clock.robot_seconds, 1),
+            "habit": habit,
+            "error": [np.subtract(s.x_predicted, s.x)[: s.n_outputs].tolist() for s in samples],
+            "x": [list(s.x)[: s.n_outputs] for s in samples],
+            "memory_kb": {name: self._processes.memory_kb(name) for name in self._programs()},
+        }
+        for name in ("experts", "contexts", "samples", "samples_stored", "gated", "bad_inputs"):
+            row[name] = getattr(status, name)
+        self.rows.append(row)
+        share = 1 - max(0.0, self._end - time.monotonic()) / (60 * self._minutes)
+        hours = self._clock.robot_seconds / 3600
+        self._progress.update(
+            "soak", share,
+            f"{hours:.2f} h of robot time, {len(self.kills)} kills, {status.experts} experts",
+        )  # fmt: skip
+
+    def _seed(self) -> int:
+        return self._random.randrange(1, 2**31)
+
+    def _programs(self) -> list[str]:
+        return [name for name in ROLES if self._processes.runs(name)]
+
+    def _strike(self, seconds: float) -> None:
+        if self._random.random() >= self._kill_rate * seconds or self._bus.status is None:
+            return
+        name = self._random.choice(self._programs())
+        stored, began = self._bus.status.samples_stored, time.monotonic()
+        self._processes.restart(name)
+        self._bus.wait_for_role(ROLES[name], name)
+        self.kills.append({"robot_s": round(self._clock.robot_seconds, 1), "program": name,
+                           "answered_s": round(time.monotonic() - began, 2),
+                           "stored": stored})  # fmt: skip
+        if name == "simrobot":  # its time begins anew
+            self._clock.now = START_UTIME
+            self._bus.forget()
+        raise KilledError(name)
+
+    def _settle(self) -> None:
+        """Until the robot answers and nothing is asked of it; a kill may strike here as well."""
+        while True:
+            try:
+                self._clock.advance(1.0)
+                self._clock.ask_daemon(self._bus.prepare(reach.request_t.STOP))
+                break
+            except KilledError:
+                continue
+        for kill in self.kills:
+            kill.setdefault("recovered", self._bus.status.samples_stored)
+        del self._bus.samples[:]
+
+
+def perform(options: argparse.Namespace) -> Soak:
+    stop = Stop()
+    models = options.out / "models"
+    models.mkdir()
+    with Processes(options.out) as processes:
+        programs.start(
+            processes, options.out, seed=options.seed, robot=options.robot,
+            settings={"model.directory": models}, channels="REACH_SAMPLE",
+        )  # fmt: skip
+        bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
+        programs.wait_until_ready(bus, options.out, options.robot)
+        soak = Soak(options, processes, bus)
+        try:
+            soak.run()
+        except KeyboardInterrupt:
+            print("\nsoak: stopped early; what was seen until then:", file=sys.stderr)
+    return soak
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parse_arguments(arguments)
+    options.out = options.out.resolve()
+    shutil.rmtree(options.out, ignore_errors=True)
+    options.out.mkdir(parents=True)
+    try:
+        soak = perform(options)
+    except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
+        print(f"\nsoak: {error}; the programs' logs are in {options.out}", file=sys.stderr)
+        return 1
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    seen = {"seed": options.seed, "robot": options.robot, "rows": soak.rows, "kills": soak.kills}
+    (options.out / "soak.json").write_text(json.dumps(seen, indent=1) + "\n")
+    lines, passed = judge(seen)
+    draw(seen, options.out / "soak.png")
+    print("\n".join(lines))
+    print(f"series  {options.out / 'soak.json'}, {options.out / 'soak.png'}")
+    return 0 if passed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
