@@ -59,7 +59,8 @@ static void fixate(struct behaviour *behaviour, struct control *control)
     control_arm_to(control, behaviour->babble.goal);
     gaze = control_gaze(control, true);
     progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
-    if (sight_fixated(control->sight)) {
+    /* What was fixated before the eyes went blind is no new sample. */
+    if (gaze == GAZE_ON_MARKER && sight_fixated(control->sight)) {
         gather(behaviour, control);
         next_goal(behaviour, control);
     } else if (control->now >= behaviour->babble.deadline) {

@@ -137,7 +137,8 @@ static void look(struct watchdog *watchdog)
     atomic_store_explicit(&watchdog->stalled, stalled, memory_order_relaxed);
     if (!stalled)
         return;
-    say_stalled(watchdog, now);
+    if (confine_violation() < 0)
+        say_stalled(watchdog, now);
     if (watchdog->brakes)
         brake(watchdog);
     end_when_forbidden(watchdog);

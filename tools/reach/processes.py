@@ -69,6 +69,15 @@ class Processes:
                 ended = f"ended with code {code}" if code >= 0 else f"was killed by signal {-code}"
                 raise ProcessDiedError(f"{name} {ended}: {self._last_line(name)}")
 
+    def pid(self, name: str) -> int:
+        return self._running[name].pid
+
+    def kill(self, name: str) -> None:
+        """Outright, and forgotten: check() does not miss it, start() may start it again."""
+        process = self._running.pop(name)
+        process.kill()
+        process.wait()
+
     def stop(self) -> None:
         for process in reversed(self._running.values()):
             if process.poll() is None:
