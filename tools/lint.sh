@@ -69,6 +69,9 @@ check_python() { .venv/bin/ruff check -q . && .venv/bin/ruff format -q --check .
 
 check_shell() { sources '*.sh' run .ci/run | xargs -r shellcheck -x; }
 
+# The loop thread: no recursion, no forbidden call, a bounded stack.
+check_loop() { .venv/bin/python tools/loop_stack.py; }
+
 case ${1:-} in
 '') ;;
 --fix) fix ;;
@@ -83,6 +86,7 @@ check python check_python
 check shell check_shell
 check cppcheck check_cppcheck
 check clang-tidy check_tidy
+check loop check_loop
 
 if [ "${#failed[@]}" -gt 0 ]; then
     echo "lint: failed: ${failed[*]}"

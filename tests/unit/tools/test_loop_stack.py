@@ -1,0 +1,63 @@
+"""tools/loop_stack.py finds what must not be in the loop's call graph."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from reach.messages import ROOT
+
+sys.path.insert(0, str(ROOT / "tools"))
+import loop_stack
+
+GOOD = """graph: { title: "loop.c"
+node: { title: "daemon/loop.c:run" label: "run\\nloop.c:1:1\\n100 bytes (static)" }
+node: { title: "step" label: "step\\ntick.c:1:1\\n4000 bytes (static)" }
+node: { title: "memcpy" label: "memcpy\\n<built-in>" shape : ellipse }
+edge: { sourcename: "daemon/loop.c:run" targetname: "step" label: "loop.c:2:2" }
+edge: { sourcename: "step" targetname: "memcpy" label: "tick.c:2:2" }
+"""
+
+
+def prove(text: str) -> loop_stack.Proof:
+    functions: dict[str, loop_stack.Function] = {}
+    with tempfile.NamedTemporaryFile("w", suffix=".ci") as file:
+        file.write(text + "}\n")
+        file.flush()
+        loop_stack.read_graph(Path(file.name), functions)
+    loop_stack.resolve_pointers(functions)
+    return loop_stack.Proof(functions)
+
+
+def edge(source: str, target: str) -> str:
+    return f'edge: {{ sourcename: "{source}" targetname: "{target}" label: "x" }}\n'
+
+
+class LoopStack(unittest.TestCase):
+    def assert_finds(self, addition: str, words: str) -> None:
+        self.assertRegex("; ".join(prove(GOOD + addition).faults), words)
+
+    def test_depth(self):
+        proof = prove(GOOD)
+        self.assertEqual(proof.faults, [])
+        self.assertEqual(proof.depth, 100 + 4000 + loop_stack.LIBRARY_STACK)
+
+    def test_recursion(self):
+        self.assert_finds(edge("step", "daemon/loop.c:run"), "recursion: .*run -> step -> .*run")
+
+    def test_allocation(self):
+        self.assert_finds(edge("step", "malloc"), "step -> malloc: not for the loop")
+
+    def test_pointer_that_nobody_named(self):
+        self.assert_finds(edge("step", "__indirect_call"), "step calls by pointer")
+
+    def test_frame_of_unknown_size(self):
+        node = 'node: { title: "vla" label: "vla\\nx.c:1:1\\n16 bytes (dynamic)" }\n'
+        self.assert_finds(node + edge("step", "vla"), "vla has a frame of unknown size")
+
+    def test_the_limit_is_what_is_touched(self):
+        self.assertEqual(loop_stack.limit(), 256 * 1024)
+
+
+if __name__ == "__main__":
+    unittest.main()
