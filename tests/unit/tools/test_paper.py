@@ -18,7 +18,7 @@ import balanced
 import synthetic
 from reach import metrics
 from reach.paper import __main__ as paper
-from reach.paper import k1, kobian, plan, report, track
+from reach.paper import k1, kobian, packed, plan, report, track
 
 PHASES = ("learn_hand", "test_hand_500", "learn_tool", "test_tool_1000", "test_hand_1000",
           "learn_again", "test_hand_1300", "frozen_hand", "coordinate_hand", "star_hand",
@@ -36,6 +36,7 @@ def finish(run: plan.Run, folder: Path, version: str) -> None:
     made = synthetic.make(folder, 12, PHASES, TARGETS)
     made |= {"group": "kobian", "learner": run.learner, "seed": run.seed,
              "settings": run.settings, "inputs": run.inputs(version)}  # fmt: skip
+    packed.pack(folder)
     (folder / "run.json").write_text(json.dumps(made))
 
 
@@ -48,7 +49,7 @@ class Resuming(unittest.TestCase):
         self.folder = Path(self.temporary.name)
         self.run_ = plan.Run(kobian, "imle", 1, True)
         self.inputs = self.run_.inputs("v1")
-        (self.folder / "run.lcmlog").touch()
+        (self.folder / "run.lcmlog.gz").touch()
         (self.folder / "run.json").write_text(json.dumps({"inputs": self.inputs}))
 
     def test_same_inputs_are_complete(self):

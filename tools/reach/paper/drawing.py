@@ -1,5 +1,6 @@
 """What the figures share: where the series are, colours, axes. The style is reach.figures'."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -46,7 +47,7 @@ class Shown:
     caption: str
     rows: tuple[str, ...]
     series: tuple[str, ...]
-    draw: object  # Callable[[Data], Figure]
+    draw: Callable[[Data], Figure]
     learner: str = "imle"  # without whose runs it cannot be drawn
 
 

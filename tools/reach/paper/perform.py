@@ -12,6 +12,7 @@ from ..experiment import Experiment
 from ..progress import Progress
 from ..record import read_log
 from ..session import Stop, session
+from . import packed
 from .plan import Run, described, digest
 
 _HERE = Path(__file__).parent
@@ -32,6 +33,7 @@ def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop
     description = {"group": run.group.NAME, "learner": run.learner, "seed": run.seed,
                    "settings": run.settings, "phases": phases, "inputs": inputs,
                    "wall_seconds": round(time.monotonic() - start, 1)}  # fmt: skip
+    packed.pack(folder)
     write_json(folder / "run.json", description)
 
 
@@ -39,12 +41,13 @@ def measure(run: Run, folder: Path) -> dict:
     """The run's summary.json, made anew when run or analysis have changed."""
     code = digest([*sorted(_HERE.glob("*.py")), *(_HERE.parent / name for name in
                    ("metrics.py", "summary.py", "record.py"))])  # fmt: skip
-    description, path = described(folder), folder / "summary.json"
+    description, kept = described(folder), folder / "summary.json"
     stamp = digest([folder / "run.json"])
-    had = _read(path)
+    had = _read(kept)
     if had and had["analysis"] == code and had["run"] == stamp:
         return had
-    record = read_log(folder / "run.lcmlog")
+    with packed.unpacked(folder) as path:
+        record = read_log(path)
     numbers = run.group.analyse(record, description, folder / "series")
     result = summary.rounded({
         "learner": run.learner, "seed": run.seed, "version": description["inputs"]["version"],
@@ -53,7 +56,7 @@ def measure(run: Run, folder: Path) -> dict:
         "wall": summary.wall(record, description),
         "run": stamp, "analysis": code,
     })  # fmt: skip
-    write_json(path, result)
+    write_json(kept, result)
     return result
 
 

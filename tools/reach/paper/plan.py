@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from ..programs import BINARIES, LEARNERS, ROOT
+from . import packed
 
 LEARNER_NAMES = ("imle", *LEARNERS)  # what ships, published IMLE, LWPR
 
@@ -87,7 +88,7 @@ def described(folder: Path) -> dict | None:
 def is_complete(folder: Path, inputs: dict, any_version: bool = False) -> bool:
     """Whether the folder holds this run, finished, with these inputs."""
     description = described(folder)
-    if description is None or not (folder / "run.lcmlog").exists():
+    if description is None or not packed.exists(folder):
         return False
     had = dict(description.get("inputs", {}))
     if any_version:
