@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ..figures import canvas
 from . import series
-from .drawing import LEARNER_WORDS, LEARNERS, Data, Shown, band, canvas, legend
+from .drawing import LEARNER_WORDS, LEARNERS, Data, Shown, band, legend
 
 _AXES = ("x, m", "y, m", "z, m")
 
