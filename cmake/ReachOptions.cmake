@@ -22,6 +22,11 @@ if(REACH_SANITIZE)
   add_link_options(-fsanitize=${REACH_SANITIZE})
 endif()
 
+if(REACH_FUZZ) # every source tells the fuzzer where it has been
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
+endif()
+
 # Warnings for our own sources; generated code and libraries are not ours to mend.
 add_library(reach_warnings INTERFACE)
 target_compile_options(reach_warnings INTERFACE

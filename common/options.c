@@ -260,9 +260,9 @@ int options_load(const struct option_row *table, void *target, const char *const
                            error_size);
 }
 
-int options_load_as(const struct option_row *table, void *target, const char *const *paths,
-                    int n_paths, const char *override_option, const char *const *overrides,
-                    int n_overrides, char *error, size_t error_size)
+static int load(const struct option_row *table, void *target, const char *const *paths, int n_paths,
+                const char *override_option, const char *const *overrides, int n_overrides,
+                char *error, size_t error_size)
 {
     struct loading loading = {.table = table, .target = target};
     const struct option_row *row;
@@ -288,4 +288,24 @@ int options_load_as(const struct option_row *table, void *target, const char *co
             return -1;
         }
     return 0;
+}
+
+/* What a file holds may be in the message, and then it may not break the line, nor a terminal. */
+static void keep_on_one_line(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f)
+            *text = '?';
+}
+
+int options_load_as(const struct option_row *table, void *target, const char *const *paths,
+                    int n_paths, const char *override_option, const char *const *overrides,
+                    int n_overrides, char *error, size_t error_size)
+{
+    int failed = load(table, target, paths, n_paths, override_option, overrides, n_overrides, error,
+                      error_size);
+
+    if (failed)
+        keep_on_one_line(error);
+    return failed;
 }

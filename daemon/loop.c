@@ -4,6 +4,7 @@
 #include "confine.h"
 #include "due_observations.h"
 #include "grid.h"
+#include "inputs.h"
 #include "realtime.h"
 #include "timing.h"
 
@@ -34,7 +35,7 @@ struct loop {
     struct due_observations due; /* lockstep */
 
     struct timing compute, wakeup;
-    int64_t overruns, slips;
+    int64_t overruns, slips, bad_states;
     int64_t page_faults; /* before the first tick */
     int overruns_in_a_row;
 
@@ -144,7 +145,7 @@ static void report(struct loop *loop, int64_t now)
     status->page_faults = realtime_page_faults() - loop->page_faults;
     status->overruns = loop->overruns;
     status->slips = loop->slips;
-    status->bad_inputs += daemon_bus_refused(loop->bus);
+    status->bad_inputs += daemon_bus_refused(loop->bus) + loop->bad_states;
     daemon_bus_send_report(loop->bus, status, &loop->outputs.trace);
     atomic_store_explicit(&loop->state, status->state * 256 + status->fault, memory_order_relaxed);
     atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);
@@ -252,9 +253,15 @@ static void run_lockstep(struct loop *loop)
 static void take_all(struct loop *loop)
 {
     struct tick_inputs *inputs = &loop->inputs;
+    struct received_state received;
 
     inputs->has_state = false;
-    while (mailbox_take(daemon_bus_states(loop->bus), &loop->received)) {
+    while (mailbox_take(daemon_bus_states(loop->bus), &received)) {
+        if (!inputs_state_ok(loop->config, &received.state)) {
+            loop->bad_states++; /* and hides no good one of the same period */
+            continue;
+        }
+        loop->received = received;
         inputs->has_state = true;
         inputs->state = loop->received.state;
         loop->any_state = true;

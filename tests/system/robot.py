@@ -9,6 +9,12 @@ from reach.messages import reach
 
 PERIOD = 0.02  # s
 START = [math.radians(x) for x in (-65, -17.5, 0, -65, -22, 3)]
+_RESULTS = {
+    reach.status_t.ACCEPTED: "accepted",
+    reach.status_t.REFUSED_STATE: "refused, not in this state",
+    reach.status_t.REFUSED_VALUE: "refused, a value is out of range",
+    reach.status_t.FAILED: "failed",
+}
 
 
 class Robot:
@@ -46,15 +52,44 @@ class Robot:
             ]
         return done()
 
-    def request(self, kind: int, **fields) -> None:
+    def stand(self, done) -> None:
+        """Says where it is until done(), and listens to nobody."""
+        due = time.monotonic()
+        while not done():
+            self._publish_state()
+            due += PERIOD
+            time.sleep(max(0.0, due - time.monotonic()))
+
+    def request(self, kind: int, **fields) -> int:
+        """Sends it; its number."""
         request = reach.request_t()
         request.utime = request.seq = time.time_ns() // 1000
         request.kind = kind
         for name, value in fields.items():
             setattr(request, name, value)
         self._lcm.publish("REACH_REQUEST", request.encode())
+        return request.seq
+
+    def refusals(self, channel: str, data: bytes) -> str:
+        """How many messages the daemon has refused after this one came, more than before."""
+        before = self.status.bad_inputs
+        self._lcm.publish(channel, data)
+        self.run(0.2)
+        return f"{self.status.bad_inputs - before} refused"
+
+    def answer(self, **fields) -> str:
+        """What the daemon makes of a request."""
+        sent = self.request(**fields)
+        self.run(2, lambda: self.status.request_seq == sent)
+        return _RESULTS[self.status.request_result]
+
+    def idle(self) -> bool:
+        return self.run(1, lambda: self.status.state == reach.status_t.IDLE)
 
     def _publish_state(self) -> None:
+        self._lcm.publish("ROBOT_STATE", self.state_message())
+
+    def state_message(self) -> bytes:
         self._seq += 1
         state = reach.robot_state_t()
         state.utime = time.time_ns() // 1000
@@ -62,4 +97,4 @@ class Robot:
         state.n_joints = len(START)
         state.position[: len(START)] = self._position
         state.velocity[: len(START)] = self._velocity
-        self._lcm.publish("ROBOT_STATE", state.encode())
+        return state.encode()

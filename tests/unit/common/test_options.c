@@ -132,6 +132,7 @@ START_TEST(mistakes_in_values_are_named_with_their_line)
     assert_refused("arm:\n  gain: 5.1\n", NULL, ":2: arm.gain:", "range 0 .. 5");
     assert_refused("arm:\n\n  count: 2.5\n", NULL, ":3: arm.count:", "whole number");
     assert_refused("arm: {gain: fast}\n", NULL, ":1: arm.gain:", "not a number");
+    assert_refused("arm: {gain: \"a\\nb\"}\n", NULL, ":1: arm.gain:", "'a?b'");
     assert_refused("arm: {gain: .nan}\n", NULL, ":1: arm.gain:", "not a number");
     assert_refused("arm: {fast: 1}\n", NULL, ":1: arm.fast:", "neither true nor false");
     assert_refused("arm: {colour: pink}\n", NULL, ":1: arm.colour:", "red|green|blue");
