@@ -73,6 +73,15 @@ setup_python() {
     cp requirements.txt .venv/requirements.installed
 }
 
+# The viewer of ./run live, some 170 MB, and only that.
+setup_live() {
+    .venv/bin/python -c 'import rerun' 2>/dev/null && return 0
+    echo "run: installing rerun-sdk into .venv" >&2
+    .venv/bin/python -m pip install -q --disable-pip-version-check -r requirements-live.txt ||
+        setup_fail "pip failed; try by hand: .venv/bin/python -m pip install -r requirements-live.txt"
+    .venv/bin/rerun analytics disable >/dev/null 2>&1 || true # nothing leaves its namespace anyway
+}
+
 setup_fail() {
     echo "run: $*" >&2
     exit 1

@@ -1,4 +1,5 @@
 #include "common/bus.h"
+#include "daemon/realtime.h"
 #include "tools/reachctl/doctor.h"
 
 #include <errno.h>
@@ -16,8 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The greatest of reachd's threads, and room for a large model; etc/systemd grants more. */
-enum { PRIORITY = 41 };
+/* Room for a large model; etc/systemd grants more. */
 static const size_t memory = 96UL << 20; /* bytes */
 
 static const int64_t earliest_us = 1735689600000000; /* 2025: before it, no clock is right */
@@ -37,7 +37,7 @@ static int in_child(int (*attempt)(void))
 
 static int take_priority(void)
 {
-    struct sched_param parameters = {.sched_priority = PRIORITY};
+    struct sched_param parameters = {.sched_priority = REALTIME_PRIORITY_WATCHDOG};
 
     return sched_setscheduler(0, SCHED_FIFO, &parameters) ? errno : 0;
 }
@@ -66,12 +66,13 @@ static void check_real_time(struct findings *findings)
     int failed = in_child(take_priority);
 
     if (failed == 0) {
-        findings_add(findings, VERDICT_OK, "real time", "SCHED_FIFO, priority %d", PRIORITY);
+        findings_add(findings, VERDICT_OK, "real time", "SCHED_FIFO, priority %d",
+                     REALTIME_PRIORITY_WATCHDOG);
         return;
     }
-    findings_add(findings, VERDICT_FINDING, "real time", "SCHED_FIFO, priority %d: %s", PRIORITY,
-                 strerror(failed));
-    grant(findings, "rtprio", PRIORITY);
+    findings_add(findings, VERDICT_FINDING, "real time", "SCHED_FIFO, priority %d: %s",
+                 REALTIME_PRIORITY_WATCHDOG, strerror(failed));
+    grant(findings, "rtprio", REALTIME_PRIORITY_WATCHDOG);
 }
 
 static void check_memory(struct findings *findings)

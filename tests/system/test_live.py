@@ -1,0 +1,60 @@
+"""./run live: a short run is written as a recording, and the viewer draws it on a screen of its
+own, without a graphics card."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import screen
+from PIL import Image
+from reach import programs
+
+RERUN = Path(sys.executable).with_name("rerun")
+WIDTH, HEIGHT = 1600, 1000
+SOFTWARE = Path("/usr/share/vulkan/icd.d")
+
+
+def draw(recording: Path, picture: Path) -> subprocess.CompletedProcess:
+    """The viewer draws itself. Its OpenGL renderer refuses software; Vulkan does not."""
+    driver = next(SOFTWARE.glob("lvp_icd*.json"))
+    # The pointer rests in the middle of the screen; there it is beside the window.
+    with screen.Screen(3 * WIDTH, 3 * HEIGHT) as display:
+        environment = {**os.environ, "DISPLAY": display.display, "VK_ICD_FILENAMES": str(driver)}
+        return subprocess.run(
+            [RERUN, recording, "--renderer", "vulkan", "--window-size", f"{WIDTH}x{HEIGHT}",
+             "--screenshot-to", picture],
+            env=environment, capture_output=True, text=True, timeout=240,
+        )  # fmt: skip
+
+
+class Live(unittest.TestCase):
+    def test_a_run_is_shown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recording = Path(folder) / "live.rrd"
+            command = [sys.executable, "-m", "reach.live", "--out", folder, "--do", "babble 5",
+                       "--seconds", "15", "--save", recording]  # fmt: skip
+            result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True,
+                                    text=True, timeout=120)  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertGreater(recording.stat().st_size, 1_000_000)
+            picture = programs.BINARIES.parent / "live.png"
+            result = draw(recording, picture)
+        self.assertTrue(picture.exists(), result.stderr)
+        pixels = np.asarray(Image.open(picture).convert("RGB")).astype(int)
+        red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+        upper = pixels.shape[0] // 2
+        ball = (green > 100) & (green > 1.6 * red) & (green > 1.6 * blue)
+        ring = (red > 200) & (green > 150) & (blue < 80)
+        # The ball in both eyes and in the world; the ring of vision around it.
+        thirds = np.array_split(ball[:upper], 3, axis=1)
+        self.assertTrue(all(part.sum() > 20 for part in thirds), [p.sum() for p in thirds])
+        self.assertGreater(ring[:upper].sum(), 20)
+        self.assertGreater(len(np.unique(pixels[upper:].reshape(-1, 3), axis=0)), 10)  # curves
+
+
+if __name__ == "__main__":
+    unittest.main()

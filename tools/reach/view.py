@@ -1,0 +1,104 @@
+"""What the window of `./run live` shows, by Rerun; wants rerun-sdk, which `./run live` installs."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import rerun as rr
+import rerun.blueprint as rrb
+from rerun.urdf import UrdfTree
+
+from .messages import bot_core, reach
+
+BALL_RADIUS = 0.02  # m
+EYES = {bot_core.images_t.LEFT: "left", bot_core.images_t.RIGHT: "right"}
+IMAGE_CENTRE = (320, 240)  # px
+
+
+class View:
+    """Turns messages into what the window shows, on the robot's own time."""
+
+    def __init__(self, urdf: Path):
+        self._urdf = UrdfTree.from_file_path(urdf)
+        self._urdf.log_urdf_to_recording()
+        self._joints = {joint.name: joint for joint in self._urdf.joints()}
+        self._start: int | None = None
+        self._take: dict[str, tuple[type, Callable]] = {
+            "JOINT_STATE": (bot_core.joint_state_t, self._on_joints),
+            "STEREO_IMAGES": (bot_core.images_t, self._on_images),
+            "MARKER": (reach.marker_t, self._on_marker),
+            "SIM_TRUTH": (reach.sim_truth_t, self._on_truth),
+            "REACH_STATUS": (reach.status_t, self._on_status),
+        }
+        root = self._urdf.root_link().name
+        rr.log("robot/ball", rr.CoordinateFrame(root), static=True)
+        rr.log("robot", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        rr.send_blueprint(blueprint(self._urdf.name, root))
+
+    def take(self, channel: str, data: bytes) -> None:
+        if channel not in self._take:
+            return
+        kind, show = self._take[channel]
+        message = kind.decode(data)
+        if self._start is None:
+            self._start = message.utime
+        rr.set_time("robot_time", duration=(message.utime - self._start) * 1e-6)
+        show(message)
+
+    def _on_joints(self, state) -> None:
+        for name, angle in zip(state.joint_name, state.joint_position, strict=True):
+            if name in self._joints:
+                turned = self._joints[name].compute_transform(angle, clamp=False)
+                rr.log(f"robot/joints/{name}", turned)
+
+    def _on_images(self, pair) -> None:
+        for kind, image in zip(pair.image_types, pair.images, strict=True):
+            if kind in EYES and image.pixelformat == image.PIXEL_FORMAT_MJPEG:
+                picture = rr.EncodedImage(contents=image.data, media_type="image/jpeg")
+                rr.log(f"eyes/{EYES[kind]}", picture)
+
+    def _on_marker(self, marker) -> None:
+        if not marker.seen:
+            for eye in EYES.values():
+                rr.log(f"eyes/{eye}/ball", rr.Clear(recursive=False))
+            return
+        u, v = IMAGE_CENTRE[0] + marker.u_right, IMAGE_CENTRE[1] + marker.v_right
+        for eye, shift in (("left", marker.disparity), ("right", 0)):
+            ring = rr.Boxes2D(centers=[(u + shift, v)], half_sizes=[(marker.radius, marker.radius)],
+                              colors=[(255, 200, 0)], radii=1.5)  # fmt: skip
+            rr.log(f"eyes/{eye}/ball", ring)
+
+    def _on_truth(self, truth) -> None:
+        ball = rr.Points3D([truth.marker], radii=BALL_RADIUS, colors=[(40, 200, 60)])
+        rr.log("robot/ball", ball)
+
+    def _on_status(self, status) -> None:
+        for name in ("error", "experts", "solutions", "samples", "compute_us"):
+            rr.log(f"plots/{name}", rr.Scalars(getattr(status, name)))
+
+
+def blueprint(robot: str, root: str) -> "rrb.Blueprint":
+    """Where everything is in the window; `root` is the frame of the robot's first link."""
+    eyes = [rrb.Spatial2DView(origin=f"eyes/{eye}", name=f"{eye} eye") for eye in EYES.values()]
+    body = rrb.Spatial3DView(
+        origin="/", name="robot",
+        contents=["/**", "- /eyes/**", "- /plots/**", f"- /{robot}/collision_geometries/**"],
+        spatial_information=rrb.SpatialInformation(target_frame=root),
+    )  # fmt: skip
+    titles = {"error": "distance to the target [px]", "experts": "experts",
+              "solutions": "solutions of the prediction", "compute_us": "tick [us]"}  # fmt: skip
+    plots = [rrb.TimeSeriesView(origin=f"plots/{name}", name=title)
+             for name, title in titles.items()]  # fmt: skip
+    upper = rrb.Horizontal(*eyes, body, column_shares=[1, 1, 1.2])
+    return rrb.Blueprint(rrb.Vertical(upper, rrb.Grid(*plots), row_shares=[1.2, 1]),
+                         collapse_panels=True)  # fmt: skip
+
+
+def open_window() -> None:
+    rr.init("reachd")
+    rr.spawn(memory_limit="1GB", hide_welcome_screen=True)
+
+
+def open_file(path: Path) -> None:
+    """Writes what a window would show."""
+    rr.init("reachd")
+    rr.save(path)
