@@ -1,5 +1,6 @@
 #include "behaviour.h"
 
+#include "motion.h"
 #include "taskspace.h"
 
 #include <math.h>
@@ -73,6 +74,8 @@ void control_task_velocity_by(struct control *control, const double *x_velocity,
     memcpy(taskspace.posture, posture, sizeof(double) * (size_t)taskspace.n_joints);
     memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
     memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
+    for (int i = 0; i < taskspace.n_joints; i++)
+        motion_range(config, i, control->q[i], &taskspace.slowest[i], &taskspace.fastest[i]);
     taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);
 }
 

@@ -21,6 +21,14 @@ static void limit_velocity(const struct config *config, int first, int n, double
         velocity[i] *= share;
 }
 
+void motion_range(const struct config *config, int joint, double q, double *down, double *up)
+{
+    struct joint_limits limits = config_joint_limits(config, joint);
+
+    *down = fmin(config->slow_down * (limits.min + config->margin - q), 0);
+    *up = fmax(config->slow_down * (limits.max - config->margin - q), 0);
+}
+
 void motion_shape(const struct config *config, int first, int n, const double *q,
                   const double *previous, double *velocity)
 {
@@ -28,9 +36,9 @@ void motion_shape(const struct config *config, int first, int n, const double *q
     for (int i = first; i < first + n; i++) {
         struct joint_limits limits = config_joint_limits(config, i);
         double step = limits.acceleration * config->period;
-        double up = config->slow_down * (limits.max - config->margin - q[i]);
-        double down = config->slow_down * (limits.min + config->margin - q[i]);
+        double down, up;
+        motion_range(config, i, q[i], &down, &up);
         velocity[i] = clamp(velocity[i], previous[i] - step, previous[i] + step);
-        velocity[i] = clamp(velocity[i], fmin(down, 0), fmax(up, 0));
+        velocity[i] = clamp(velocity[i], down, up);
     }
 }

@@ -7,6 +7,9 @@
 
 #include "config.h"
 
+/* How fast joint i of the command, at q (rad), may move either way for its limits' sake, rad/s. */
+void motion_range(const struct config *config, int joint, double q, double *down, double *up);
+
 /* Shapes velocities (rad/s, in place) of the joints first .. first + n - 1: the direction of the
  * wanted velocity is kept while it is scaled into the greatest velocity; near a joint limit it is
  * slowed down; its change since `previous` is bounded by the greatest acceleration.

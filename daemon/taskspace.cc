@@ -38,6 +38,24 @@ Inverse invert(const Matrix &scaled, double threshold, double damping_max)
             smallest};
 }
 
+/* The joint that is farthest beyond what it may do; -1 = none. A joint that is held at its bound
+ * is there but for rounding. */
+int worst_offender(const struct taskspace &taskspace, const Eigen::Ref<const Vector> &velocity)
+{
+    double most = 1e-9;
+    int worst = -1;
+
+    for (int i = 0; i < taskspace.n_joints; i++) {
+        const double beyond =
+            std::max(velocity(i) - taskspace.fastest[i], taskspace.slowest[i] - velocity(i));
+        if (beyond > most) {
+            most = beyond;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
 } // namespace
 
 void taskspace_centring_gradient(const struct taskspace *taskspace, const double *q,
@@ -58,16 +76,26 @@ double taskspace_velocity(const struct taskspace *taskspace, const double *jacob
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
             jacobian, taskspace->n_outputs, n);
     scaled = scale.cwiseInverse().asDiagonal() * scaled;
-    const Vector wanted =
-        Eigen::Map<const Vector>(x_velocity, taskspace->n_outputs).cwiseQuotient(scale);
-
-    const Inverse inverse = invert(scaled, taskspace->threshold, taskspace->damping_max);
-
+    Vector wanted = Eigen::Map<const Vector>(x_velocity, taskspace->n_outputs).cwiseQuotient(scale);
     Vector secondary(n);
     taskspace_centring_gradient(taskspace, q, secondary.data());
     secondary *= -taskspace->secondary_gain;
 
     Eigen::Map<Vector> velocity(q_velocity, n);
-    velocity = inverse.pinv * wanted + secondary - inverse.pinv * (scaled * secondary);
-    return inverse.smallest;
+    Vector bound = Vector::Zero(n); /* of the joints that are held to one */
+    double smallest = 0;
+    for (int held = 0; held <= n; held++) {
+        const Inverse inverse = invert(scaled, taskspace->threshold, taskspace->damping_max);
+        velocity = bound + inverse.pinv * wanted + secondary - inverse.pinv * (scaled * secondary);
+        if (held == 0)
+            smallest = inverse.smallest;
+        const int joint = worst_offender(*taskspace, velocity);
+        if (joint < 0)
+            break;
+        bound(joint) = velocity(joint) > 0 ? taskspace->fastest[joint] : taskspace->slowest[joint];
+        wanted -= scaled.col(joint) * bound(joint);
+        scaled.col(joint).setZero();
+        secondary(joint) = 0;
+    }
+    return smallest;
 }

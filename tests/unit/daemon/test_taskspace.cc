@@ -28,6 +28,8 @@ struct taskspace settings(int rows, int joints)
     for (int i = 0; i < joints; i++) {
         t.q_min[i] = -1 - 0.1 * i;
         t.q_max[i] = 1 + 0.2 * i;
+        t.slowest[i] = -INFINITY;
+        t.fastest[i] = INFINITY;
         t.posture[i] = (t.q_min[i] + t.q_max[i]) / 2;
     }
     return t;
@@ -166,6 +168,31 @@ START_TEST(far_from_singular_it_is_exact)
 }
 END_TEST
 
+/* A joint at its limit is held there, and the others still bring what is wanted. */
+START_TEST(others_make_up_for_a_joint_at_its_limit)
+{
+    struct random_state random = fixture_random("test_taskspace");
+
+    for (int trial = 0; trial < 200; trial++) {
+        struct taskspace t = settings(3, 7);
+        MatrixXd jacobian = random_matrix(&random, 3, 7);
+        VectorXd wanted = random_matrix(&random, 3, 1), q = random_matrix(&random, 7, 1);
+        double flat[MAX_OUTPUTS * MAX_JOINTS], velocity[MAX_JOINTS];
+        int at_limit = trial % 7;
+
+        t.threshold = 1e-6;
+        t.slowest[at_limit] = t.fastest[at_limit] = 0;
+        t.fastest[(at_limit + 3) % 7] = 0.01;
+        flatten(jacobian, flat);
+        taskspace_velocity(&t, flat, wanted.data(), q.data(), velocity);
+        Eigen::Map<VectorXd> v(velocity, 7);
+        ck_assert_double_eq_tol(v(at_limit), 0, 1e-8);
+        ck_assert(v((at_limit + 3) % 7) <= 0.01 + 1e-8);
+        ck_assert_double_lt((jacobian * v - wanted).norm(), 1e-6);
+    }
+}
+END_TEST
+
 START_TEST(the_gradient_is_that_of_m)
 {
     struct taskspace t = settings(3, 4);
@@ -195,9 +222,10 @@ END_TEST
 
 int main()
 {
-    const TTest *const tests[] = {agrees_with_the_reference, agrees_near_singularities,
-                                  damping_bounds_the_velocity, far_from_singular_it_is_exact,
-                                  the_gradient_is_that_of_m};
+    const TTest *const tests[] = {
+        agrees_with_the_reference,   agrees_near_singularities,
+        damping_bounds_the_velocity, far_from_singular_it_is_exact,
+        the_gradient_is_that_of_m,   others_make_up_for_a_joint_at_its_limit};
 
     return SUITE_RUN("taskspace", tests);
 }
