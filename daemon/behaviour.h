@@ -60,8 +60,9 @@ struct targets {
     int64_t period;                               /* us */
     int64_t deadline;                             /* us */
     bool go_to_centre;
-    double head_goal[HEAD_JOINTS];     /* rad */
-    double setpoint[SPACE_DIMENSIONS]; /* px or m, where a reaching arm is to be by now */
+    double head_goal[HEAD_JOINTS]; /* rad */
+    /* Where the arm that reaches is to be by now (px or m), or the head that turns (rad). */
+    double setpoint[SPACE_DIMENSIONS];
 };
 
 struct behaviour;

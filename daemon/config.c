@@ -116,7 +116,7 @@ static const struct option_row table[] = {
            "what is learned: the head that fixates a marker, or a measured position"),
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
-           "time constant with which reaching goes over to a new target, 0 = at once"),
+           "time constant with which arm or head go over to a new target, 0 = at once"),
     NUMBER("task.follow_gain", follow_gain, "1/s", "3", 0, 50, "k_c of eq. 13"),
     NUMBER("task.secondary_gain", secondary_gain, "rad/s", "0.05", 0, 10,
            "K_s of eq. 4: joints towards the middle of their range, in the null space"),

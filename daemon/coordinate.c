@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <reach_status_t.h>
+#include <string.h>
 
 /* The target is virtual: the direction that its pixel has when it is presented, to which the head
  * then turns by its encoders. */
@@ -39,9 +40,11 @@ static void follow(struct control *control, double disparity)
 static void turn_head(struct behaviour *behaviour, struct control *control)
 {
     const struct config *config = control->config;
+    struct targets *targets = &behaviour->targets;
     int n_arm = config_arm_joints(config);
 
-    head_turn(config, control->q + n_arm, behaviour->targets.head_goal, control->velocity + n_arm);
+    targets_slide(config, targets->head_goal, targets->setpoint, HEAD_JOINTS);
+    head_turn(config, control->q + n_arm, targets->setpoint, control->velocity + n_arm);
     /* Shaped here, since the arm is to follow what the head really does. */
     motion_shape(config, n_arm, HEAD_JOINTS, control->q, control->previous, control->velocity);
 }
@@ -52,6 +55,8 @@ static bool coordinate_step(struct behaviour *behaviour, struct control *control
 
     switch (targets_step(behaviour, control, &target)) {
     case TARGETS_PREPARE:
+        memcpy(behaviour->targets.setpoint, control->q + config_arm_joints(control->config),
+               HEAD_JOINTS * sizeof(double));
         return true;
     case TARGETS_DONE:
         return false;

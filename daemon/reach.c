@@ -3,21 +3,8 @@
 #include "behaviour.h"
 #include "targets.h"
 
-#include <math.h>
 #include <reach_status_t.h>
 #include <string.h>
-
-/* The set-point slides from one target to the next instead of jumping, by a first-order filter,
- * because a step of the wanted velocity swings a flexible tool. It slides on the straight line
- * between the two, and the loop of eq. 4 about it stays as it was. */
-static void slide(const struct config *config, const double *target, double *setpoint)
-{
-    double share =
-        config->task_smoothing > 0 ? 1 - exp(-config->period / config->task_smoothing) : 1;
-
-    for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        setpoint[row] += share * (target[row] - setpoint[row]);
-}
 
 static bool reach_step(struct behaviour *behaviour, struct control *control)
 {
@@ -35,7 +22,7 @@ static bool reach_step(struct behaviour *behaviour, struct control *control)
     default:
         break;
     }
-    slide(config, target, setpoint);
+    targets_slide(config, target, setpoint, SPACE_DIMENSIONS);
     control_approach(control, setpoint, config->task_gain, velocity);
     memcpy(control->target, target, sizeof control->target);
     if (sight_seen(control->sight, control->now)) {

@@ -1,5 +1,6 @@
 #include "targets.h"
 
+#include <math.h>
 #include <reach_status_t.h>
 #include <string.h>
 
@@ -44,6 +45,15 @@ static void prepare(struct behaviour *behaviour, struct control *control)
         return;
     control_gather(control, sight_pair_frames(control->config));
     progress->phase = REACH_STATUS_T_TRACK;
+}
+
+void targets_slide(const struct config *config, const double *target, double *setpoint, int n)
+{
+    double share =
+        config->task_smoothing > 0 ? 1 - exp(-config->period / config->task_smoothing) : 1;
+
+    for (int i = 0; i < n; i++)
+        setpoint[i] += share * (target[i] - setpoint[i]);
 }
 
 enum targets_work targets_step(struct behaviour *behaviour, struct control *control,

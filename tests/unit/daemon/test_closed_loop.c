@@ -247,7 +247,7 @@ START_TEST(the_arm_follows_the_head)
         memcpy(head, world.robot.q + 4, sizeof head);
     }
     ck_assert_int_eq(world.outputs.status.progress, 4);
-    ck_assert_msg(worst < 12, "%g px", worst);
+    ck_assert_msg(worst < 3, "%g px", worst);
     ck_assert(hypot(head[0], head[1]) > 0);
     end();
 }
