@@ -23,12 +23,14 @@ struct bench {
 };
 
 /* The published experts, and so little tolerance that many are born. */
-static int load_config(struct config *config, char *error, size_t error_size)
+static int load_config(struct config *config, const char *directory, char *error, size_t error_size)
 {
     const char *paths[] = {REACH_ETC_DIR "/kobian.yaml", REACH_ETC_DIR "/learner-linear.yaml"};
+    char kept[600];
     const char *overrides[] = {"learner.capacity=1024", "learner.noise_angle=0.05",
-                               "learner.noise_disparity=0.3"};
+                               "learner.noise_disparity=0.3", kept};
 
+    snprintf(kept, sizeof kept, "model.directory=\"%s\"", directory);
     return config_load(config, paths, 2, overrides, sizeof overrides / sizeof overrides[0], error,
                        error_size);
 }
@@ -52,6 +54,8 @@ static int teach(struct bench *bench, int experts, char *error, size_t error_siz
             q[i] =
                 random_uniform(&random, config->babble_min.value[i], config->babble_max.value[i]);
         fake_robot_task(&bench->robot, q, x);
+        while (!model_store_note(bench->tick->store, q, x))
+            model_store_serve(bench->tick->store, n);
         learner_update(bench->tick->learner, q, x);
     }
     bench->robot.tool = 0.0;
@@ -114,26 +118,43 @@ static int reach(struct bench *bench, int calls, struct durations *times, char *
     return 0;
 }
 
-int tick_bench(int experts, int calls, struct durations *times, char *error, size_t error_size)
+/* A daemon's control step, taught; `directory` "" keeps nothing. Returns 0 or -1. */
+static int begin(struct bench *bench, const char *directory, int experts, char *error,
+                 size_t error_size)
 {
-    static struct bench bench; /* messages are large */
-    int result = -1;
-
-    memset(&bench, 0, sizeof bench);
-    if (load_config(&bench.config, error, error_size))
+    memset(bench, 0, sizeof *bench);
+    if (load_config(&bench->config, directory, error, error_size))
         return -1;
-    bench.arena = arena_create(tick_memory(&bench.config));
-    if (!bench.arena) {
+    bench->arena = arena_create(tick_memory(&bench->config));
+    if (!bench->arena) {
         snprintf(error, error_size, "tick: no memory");
         return -1;
     }
-    bench.tick = tick_create(&bench.config, bench.arena, error, error_size);
-    if (bench.tick) {
-        fake_robot_init(&bench.robot, &bench.config);
-        result = teach(&bench, experts, error, error_size);
-    }
+    bench->tick = tick_create(&bench->config, bench->arena, error, error_size);
+    if (!bench->tick || tick_open_model(bench->tick, error, error_size))
+        return -1;
+    fake_robot_init(&bench->robot, &bench->config);
+    return teach(bench, experts, error, error_size);
+}
+
+int tick_bench(int experts, int calls, struct durations *times, char *error, size_t error_size)
+{
+    static struct bench bench; /* messages are large */
+    int result = begin(&bench, "", experts, error, error_size);
+
     if (result == 0)
         result = reach(&bench, calls, times, error, error_size);
+    arena_destroy(bench.arena);
+    return result;
+}
+
+int tick_prime(const char *directory, int experts, char *error, size_t error_size)
+{
+    static struct bench bench;
+    int result = begin(&bench, directory, experts, error, error_size);
+
+    if (bench.tick)
+        model_store_close(bench.tick->store);
     arena_destroy(bench.arena);
     return result;
 }

@@ -16,6 +16,10 @@ extern "C" {
  */
 int tick_bench(int experts, int calls, struct durations *times, char *error, size_t error_size);
 
+/* Leaves in `directory` the model of such a daemon with `experts`, from which a reachd with the
+ * same options starts. returns 0, or -1 with one line in `error` */
+int tick_prime(const char *directory, int experts, char *error, size_t error_size);
+
 #ifdef __cplusplus
 }
 #endif
