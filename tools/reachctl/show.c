@@ -43,6 +43,9 @@ void show_text(const reach_status_t *status, FILE *out)
 {
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
             show_behaviour(status), show_phase(status));
+    if (status->fault != REACH_STATUS_T_FAULT_NONE)
+        fprintf(out, "fault      %s; reachctl reset-fault leaves it\n",
+                status_fault_word(status->fault));
     fprintf(out, "progress   %d of %d, %d given up; error %.1f %s\n", status->progress,
             status->progress_total, status->skipped, show_error(status), show_error_unit(status));
     fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
@@ -102,8 +105,12 @@ static const struct field {
     FIELD(compute_p999_us, FIELD_DOUBLE),
     FIELD(compute_max_us, FIELD_DOUBLE),
     FIELD(wakeup_us, FIELD_DOUBLE),
+    FIELD(wakeup_mean_us, FIELD_DOUBLE),
+    FIELD(wakeup_p999_us, FIELD_DOUBLE),
+    FIELD(wakeup_max_us, FIELD_DOUBLE),
     FIELD(overruns, FIELD_INT64),
     FIELD(slips, FIELD_INT64),
+    FIELD(page_faults, FIELD_INT64),
     FIELD(queue, FIELD_INT32),
     FIELD(dropped_samples, FIELD_INT64),
     FIELD(bad_inputs, FIELD_INT64),
@@ -155,6 +162,7 @@ void show_json(const reach_status_t *status, FILE *out)
 {
     fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", show_state(status),
             show_behaviour(status), show_phase(status));
+    fprintf(out, ", \"fault\": \"%s\"", status_fault_word(status->fault));
     fprintf(out, ", \"request_result\": \"%s\"", result_word(status));
     for (size_t i = 0; i < COUNT(fields); i++) {
         fprintf(out, ", \"%s\": ", fields[i].name);
