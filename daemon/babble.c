@@ -5,14 +5,28 @@
 
 #include <reach_status_t.h>
 
+static const int most_draws = 20;  /* for a posture that promises something */
+static const double daring = 0.05; /* chance of a posture that promises nothing */
+
+static void draw(struct babble *babble, const struct config *config)
+{
+    for (int i = 0; i < config_arm_joints(config); i++)
+        babble->goal[i] = random_uniform(&babble->random, config->babble_min.value[i],
+                                         config->babble_max.value[i]);
+}
+
+/* A random posture that promises to be of use, or now and then one that does not. */
 static void next_goal(struct behaviour *behaviour, struct control *control)
 {
     const struct config *config = control->config;
     struct babble *babble = &behaviour->babble;
 
-    for (int i = 0; i < config_arm_joints(config); i++)
-        babble->goal[i] = random_uniform(&babble->random, config->babble_min.value[i],
-                                         config->babble_max.value[i]);
+    draw(babble, config);
+    for (int k = 1; k < most_draws && !tried_promises(control->tried, config, babble->goal); k++) {
+        if (random_uniform(&babble->random, 0, 1) < daring)
+            break;
+        draw(babble, config);
+    }
     babble->deadline = control->now + (int64_t)(config->babble_timeout * 1e6);
     behaviour->progress.phase = REACH_STATUS_T_MOVE;
 }
@@ -61,9 +75,11 @@ static void fixate(struct behaviour *behaviour, struct control *control)
     progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
     /* What was fixated before the eyes went blind is no new sample. */
     if (gaze == GAZE_ON_MARKER && sight_fixated(control->sight)) {
+        tried_note(control->tried, behaviour->babble.goal, true);
         gather(behaviour, control);
         next_goal(behaviour, control);
     } else if (control->now >= behaviour->babble.deadline) {
+        tried_note(control->tried, behaviour->babble.goal, false);
         progress->skipped++;
         next_goal(behaviour, control);
     }

@@ -11,6 +11,7 @@
 #include "random.h"
 #include "select.h"
 #include "sight.h"
+#include "tried.h"
 
 #include <reach_request_t.h>
 #include <stdbool.h>
@@ -32,6 +33,7 @@ struct control {
     const struct sight *sight;
     struct selection *selection;
     struct gaze *gaze;
+    struct tried *tried;
 
     double velocity[MAX_JOINTS];     /* wanted, all joints, rad/s */
     bool has_target;                 /* `target` holds */

@@ -91,8 +91,9 @@ static const struct option_row table[] = {
     NUMBER("fixation.timeout", fixation_timeout, "s", "8", 0.1, 600,
            "time for fixation after which a configuration is given up"),
 
-    LIST("babble.min", babble_min, "deg", NULL, -360, 360, "least random reference"),
-    LIST("babble.max", babble_max, "deg", NULL, -360, 360, "greatest random reference"),
+    LIST("babble.min", babble_min, "deg", "[]", -360, 360,
+         "least random reference; without it the arm's range less motion.margin"),
+    LIST("babble.max", babble_max, "deg", "[]", -360, 360, "greatest, likewise"),
     NUMBER("babble.gain", babble_gain, "1/s", "4", 0.01, 50, "of the joint position control"),
     NUMBER("babble.tolerance", babble_tolerance, "deg", "0.3", 0.001, 20,
            "distance at which a reference counts as reached"),
@@ -219,6 +220,19 @@ static void set_cartesian(struct config *config)
     }
 }
 
+/* Nobody has said which part of the range is of use: all of it, and babbling finds out. */
+static void set_babble_range(struct config *config)
+{
+    if (config->babble_min.n > 0 || config->babble_max.n > 0)
+        return;
+    config->babble_min = config->arm_min;
+    config->babble_max = config->arm_max;
+    for (int i = 0; i < config_arm_joints(config); i++) {
+        config->babble_min.value[i] += config->margin;
+        config->babble_max.value[i] -= config->margin;
+    }
+}
+
 static void set_space(struct config *config)
 {
     if (config->task_space == SPACE_CARTESIAN)
@@ -236,6 +250,7 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
     if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
         return -1;
     set_space(config);
+    set_babble_range(config);
     if (config_check(config, reason, sizeof reason)) {
         snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
         return -1;

@@ -263,6 +263,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         .sight = &tick->sight,
         .selection = &tick->selection,
         .gaze = &tick->gaze,
+        .tried = &tick->tried,
     };
 
     if (inputs->config)

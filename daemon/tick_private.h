@@ -24,6 +24,7 @@ struct tick {
     struct selection selection;
     struct context context;
     struct gaze gaze;
+    struct tried tried;
     struct safety safety;
     struct behaviour behaviour;
     struct learner_prediction pair_prediction; /* too large for the stack */
