@@ -101,7 +101,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct daemon_bus *bus;
     struct tick *tick;
 
-    if (!config.period)
+    if (config.period <= 0)
         begin();
     HARNESS_REQUIRE(bus_claim_role(lcm, REACH_HELLO_T_DAEMON, 0, &claim) == 0);
     arena = arena_create(tick_memory(&config) + daemon_bus_memory());
