@@ -117,6 +117,9 @@ def main(arguments: list[str] | None = None) -> int:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         conclude(options, runs)
+    except KeyboardInterrupt:
+        print("\npaper: stopped; what was measured is kept", file=sys.stderr)
+        return 130
     except (ReplayError, OSError) as error:
         print(f"paper: {error}", file=sys.stderr)
         return 1

@@ -26,6 +26,7 @@ def errors(data: Data):
             band(axis, counts[third], rows[:, third], color=colour, label=LEARNER_WORDS[learner])
     for axis, title in zip(axes[0], ("S1, hand", "S2, stick", "as in the hand"), strict=True):
         axis.set(title=title, xlabel="training samples", yscale="log")
+        axis.locator_params(axis="x", nbins=4)
     axes[0, 0].set_ylabel("RMSE, mean of the components, mm")
     legend(figure, axes[0, 0])
     return figure
@@ -49,7 +50,8 @@ def _cube(axis, data: Data, name: str, learner: str, title: str) -> None:
     for which, limits in zip("xyz", np.stack([wanted.min(0) - 0.05, wanted.max(0) + 0.05]).T,
                              strict=True):  # fmt: skip
         axis.set(**{f"{which}lim": limits})
-    axis.set_box_aspect((1, 1, 1))
+    axis.locator_params(nbins=4)
+    axis.set_box_aspect((1, 1, 1), zoom=0.78)
 
 
 def cubes(*shown: tuple[str, str, str]):

@@ -17,7 +17,7 @@ EXPERIMENTS = ("I1", "I2")
 TOOLS = {"none": 0, "stick": 1, "L": 2}  # the simulator's numbers
 CHANNELS = "REACH_SAMPLE|REACH_STATUS|REACH_REQUEST|SIM_REQUEST|SIM_TRUTH"
 TICK = 0.02  # s, a sample each while babbling
-LEAD_IN_SECONDS = 5.0
+PACE = 10  # times as fast as with eyes, about
 MODEL = 1  # number of the model that is put aside
 # Middles of the cubes, m: where every corner is reached furthest inside the joints' limits, with
 # hand and stick alike, and with the L.
@@ -63,10 +63,12 @@ _NEW = [f"stick_new_{n}" for n in (1, 2, 3)]
 
 
 def weights(sizes: dict) -> dict[str, float]:
+    """Robot seconds of each phase, as if they passed as slowly as with eyes."""
     babbled = {name: sizes["tests"] * TICK for name in i1.SETS.values()}
     babbled |= {name: sizes["samples"] * TICK for name in i1.PHASES}
-    cube = LEAD_IN_SECONDS + 17 * sizes["cube_seconds"]
-    return babbled | {f"cube_{name}": cube for name in i2.CUBES}
+    cube = 17 * sizes["cube_seconds"]
+    seconds = babbled | {f"cube_{name}": cube for name in i2.CUBES}
+    return {name: value / PACE for name, value in seconds.items()}
 
 
 def perform(experiment: Experiment, sizes: dict, seed: int) -> None:
