@@ -15,7 +15,7 @@ from reach.processes import Processes
 from reach.progress import Progress
 from reach.record import read_log
 
-PHASES = ("learn hand", "hand", "learn stick", "stick", "hand again", "learn", "cube")
+PHASES = ("learn hand", "hand", "learn stick", "stick", "hand again", "learn", "cube", "explore")
 PERIOD = 3.0  # for each corner, s
 EDGE = 0.10  # of the cube, m
 
@@ -75,6 +75,15 @@ class Cartesian(unittest.TestCase):
 
         results = self.perform("icub", act)
         self.assertEqual(len(results), 3)
+        self.assert_reached(results, 0.01)
+
+    def test_the_icub_from_nothing(self):
+        def act(experiment: Experiment) -> None:
+            experiment.explore("explore", 2000, seed=3)
+            experiment.reach_for("cube", cube((0.26, -0.15, 0.62)), PERIOD, learn=False)
+
+        results = self.perform("icub", act)
+        self.assertEqual(len(results), 1)
         self.assert_reached(results, 0.01)
 
     def test_a_robot_that_is_only_a_urdf_and_yaml(self):

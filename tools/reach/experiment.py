@@ -37,6 +37,10 @@ class Experiment:
         kind = reach.request_t.BABBLE
         self._behave(name, kind, count=count, seed=seed, learn=int(learn))
 
+    def explore(self, name: str, count: int, seed: int) -> None:
+        """Learns to reach by reaching for goals of the robot's own, `count` samples."""
+        self._behave(name, reach.request_t.EXPLORE, count=count, seed=seed, learn=1)
+
     def star(self, name: str, targets: np.ndarray, period: float) -> None:
         """Reaches under a resting head, from the middle of the babbled range."""
         self._pursue(name, reach.request_t.REACH, targets, period, learn=True)
