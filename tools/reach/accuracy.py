@@ -74,7 +74,8 @@ def table(rows: list[dict], what: dict[str, str]) -> str:
 
 
 def run(options: argparse.Namespace) -> list[dict]:
-    chosen = [s for s in studies(options.quick) if not options.only or s.name in options.only]
+    chosen = [s for s in studies(options.quick)
+              if (s.name in options.only if options.only else s.kept)]  # fmt: skip
     progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
     rows: list[dict] = []
     for study in chosen:

@@ -49,6 +49,7 @@ class Study:
     make: Callable[[Path, np.random.Generator], Files]
     bars: list[Bar]
     parameters: tuple[str, ...] = ()
+    kept: bool = True  # False: an idea that was tried and not kept, run when asked for by name
 
 
 def rmse(test: str) -> Callable[[dict], float]:
@@ -91,6 +92,26 @@ def _train(folder, rng, arm, tools, lengths, noise, outliers) -> list[Path]:
         x[wrong] += direction[wrong]
         files.append(write(folder / f"train_{len(files) + 1}.csv", q, x))
     return files
+
+
+def _rehearsed(path: Path, rng: np.random.Generator, times: int) -> Path:
+    """The same stream, each sample followed by `times` of those that came before it."""
+    rows = np.loadtxt(path, delimiter=",")
+    earlier = (rng.uniform(size=(len(rows), times)) * (1 + np.arange(len(rows)))[:, None]).astype(
+        int
+    )
+    order = np.column_stack([np.arange(len(rows)), earlier]).ravel()
+    return write(path, rows[order])
+
+
+def _with_rehearsal(length: int, times: int):
+    def make(folder: Path, rng: np.random.Generator) -> Files:
+        files = _arm_files(folder, rng, Arm(), [TOOLS["none"], TOOLS["stick"]], 2 * [length])
+        for path in files.train:
+            _rehearsed(path, rng, times)
+        return files
+
+    return make
 
 
 def _arm_files(folder, rng, arm, tools, lengths, noise=NOISE, outliers=0.0) -> Files:
@@ -189,6 +210,16 @@ def _progress_bars(n: int) -> list[Bar]:
     ]  # fmt: skip
 
 
+def _rehearsal_bars(n: int, rows: int) -> list[Bar]:
+    """As the phases', at `rows` learned for each sample that the robot made."""
+    return [
+        Bar("hand after 1,000", 1000 * rows, rmse("S1"), 25),
+        Bar("hand after 5,000", 5000 * rows, rmse("S1"), 6),
+        Bar("stick after 1,000 with it", (n + 1000) * rows, rmse("S2"), 30),
+        Bar("stick after 5,000 with it", (n + 5000) * rows, rmse("S2"), 8),
+    ]
+
+
 def _psi_bars(n: int) -> list[Bar]:
     return [
         Bar("hand at the end", 4 * n, rmse("S1"), 3.0),
@@ -220,6 +251,9 @@ def studies(quick: bool) -> list[Study]:
               _psi_bars(20000), ("psi0=0.25e-4",)),
         Study("double_psi", "Psi_0 twice as wide", (7, 3), _four_phases(20000), _psi_bars(20000),
               ("psi0=4e-4",)),
+        *(Study(f"rehearsal_{times}", f"{times} earlier samples learned again with each", (7, 3),
+                _with_rehearsal(5000, times), _rehearsal_bars(5000, 1 + times), kept=False)
+          for times in (0, 1, 3)),
         Study("sines", "sin z and sin z + 1, 200 queries", (1, 1), sines, counted, ONE_INPUT),
         Study("crossing", "z and -z, queries where they are 0.3 apart", (1, 1), crossing, counted,
               ONE_INPUT),
