@@ -70,7 +70,6 @@ void house_keep(struct house *house)
             break;
         if (signal == SIGHUP)
             read_configuration_again(house);
-        model_store_serve(house->store, bus_monotonic_us());
         say_what_is_awaited(house);
         tell_service(house);
     }

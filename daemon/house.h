@@ -1,10 +1,10 @@
-/* Housekeeping: what may block or write, in the main thread, while the loop runs in its own. */
+/* Housekeeping in the main thread: signals, warnings, the service manager. The disk has a thread of
+ * its own, keeper.h. */
 #ifndef REACH_HOUSE_H
 #define REACH_HOUSE_H
 
 #include "daemon_bus.h"
 #include "loop.h"
-#include "model_store.h"
 #include "reload.h"
 #include "service.h"
 
@@ -13,7 +13,6 @@
 struct house {
     struct loop *loop;
     struct daemon_bus *bus;
-    struct model_store *store;
     struct reload *reload;
     struct service service;
     reach_status_t status; /* the newest */

@@ -3,6 +3,7 @@
 #include "config.h"
 #include "daemon_bus.h"
 #include "house.h"
+#include "keeper.h"
 #include "loop.h"
 #include "realtime.h"
 #include "tick.h"
@@ -45,6 +46,7 @@ struct reachd {
     struct daemon_bus *bus;
     struct watchdog *watchdog;
     struct loop *loop;
+    struct keeper keeper;
 };
 
 static const char usage[] =
@@ -276,6 +278,26 @@ static int start_threads(struct reachd *reachd, char *error, size_t error_size)
     return 0;
 }
 
+/* The model's thread ends last, and after the arm has stopped: its disk may be slow. */
+static void stop_threads(struct reachd *reachd)
+{
+    watchdog_stop(reachd->watchdog);
+    loop_stop(reachd->loop);
+    daemon_bus_stop(reachd->bus);
+}
+
+static int keep_model(struct reachd *reachd, char *error, size_t error_size)
+{
+    struct model_store *store = tick_model_store(reachd->tick);
+
+    if (is_real_time(reachd))
+        model_store_unlock_memory(store);
+    if (keeper_start(&reachd->keeper, store, error, error_size) == 0)
+        return 0;
+    stop_threads(reachd);
+    return -1;
+}
+
 static int run(struct reachd *reachd, char *error, size_t error_size)
 {
     struct house house = {0};
@@ -284,19 +306,15 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
     house_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
-        start_threads(reachd, error, error_size))
+        start_threads(reachd, error, error_size) || keep_model(reachd, error, error_size))
         return -1;
     log_info("ready");
     house.loop = reachd->loop;
     house.bus = reachd->bus;
-    house.store = tick_model_store(reachd->tick);
     house.reload = &reachd->reload;
-    if (is_real_time(reachd))
-        model_store_unlock_memory(house.store);
     house_keep(&house);
-    watchdog_stop(reachd->watchdog);
-    loop_stop(reachd->loop);
-    daemon_bus_stop(reachd->bus);
+    stop_threads(reachd);
+    keeper_stop(&reachd->keeper);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
     return 0;
 }
