@@ -214,11 +214,17 @@ static void bad_period(int now, bool late)
 
 static void calm_period(int kind)
 {
-    inputs = (struct tick_inputs){.has_state = true, .n_requests = kind >= 0};
+    /* A standstill may have been the last thing that happened. */
+    inputs = (struct tick_inputs){.has_state = true,
+                                  .n_requests = kind >= 0,
+                                  .braked = inputs.braked,
+                                  .slipped = inputs.slipped};
     inputs.state = fake_robot_state(&robot);
     inputs.request[0] =
         (reach_request_t){.seq = ++request_seq, .kind = (int8_t)kind, .count = 2, .seed = 1};
     run_tick();
+    inputs.braked = 0;
+    inputs.slipped = 0;
     obey(&outputs.command, false);
 }
 
