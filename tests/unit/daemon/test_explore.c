@@ -135,6 +135,31 @@ START_TEST(it_reaches_in_metres_from_nothing)
 }
 END_TEST
 
+/* Nobody tells it of the tool: what moving does is no longer what the model says. */
+START_TEST(it_goes_on_with_a_tool)
+{
+    double middle[3], share;
+
+    begin("icub.yaml", 0.0005);
+    now(middle);
+    explore(1500, 3);
+    robot.tool = 0.28;
+    run((reach_request_t){.kind = REACH_REQUEST_T_EXPLORE, .count = 1500, .seed = 4, .learn = 1},
+        15000);
+    ck_assert_int_eq(outputs.status.contexts, 2);
+    middle[0] += 0.05;
+    middle[2] += 0.08;
+    share = reached(10, middle, (double[]){0.04, 0.06, 0.06}, 0.01);
+    ck_assert_msg(share >= 0.9, "%g of the targets", share);
+    robot.tool = 0;
+    middle[0] -= 0.05;
+    middle[2] -= 0.08;
+    share = reached(10, middle, (double[]){0.04, 0.06, 0.06}, 0.01);
+    ck_assert_msg(share >= 0.9, "%g of the targets with the hand again", share);
+    arena_destroy(arena);
+}
+END_TEST
+
 START_TEST(it_reaches_in_the_image_from_nothing)
 {
     double share;
@@ -151,7 +176,7 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {it_reaches_in_metres_from_nothing,
-                                  it_reaches_in_the_image_from_nothing};
+                                  it_reaches_in_the_image_from_nothing, it_goes_on_with_a_tool};
 
     return SUITE_RUN("explore", tests);
 }
