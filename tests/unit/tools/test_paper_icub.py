@@ -10,7 +10,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 
 import synthetic
-from reach.paper import drawing, i1, i2, icub, rows
+from reach.paper import drawing, explore, i1, i2, icub, rows
 from reach.record import read_log
 
 SIZES = {"samples": 30, "tests": 30, "cube_seconds": 2.0}
@@ -137,6 +137,34 @@ class Numbers(unittest.TestCase):
         for figure in shown:
             self.assertTrue(figure.draw(data).axes)
             self.assertEqual([n for n in figure.series if not data.path(n).exists()], [])
+
+
+class FromNothing(unittest.TestCase):
+    """Exploring, then targets: what counts as reached, and in which unit."""
+
+    def measured(self, group: explore.Explore, beside: float) -> dict:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            run = synthetic.make(folder, 5, ("explore", "reach"), {"reach": group.targets()},
+                                 beside)  # fmt: skip
+            return group.analyse(read_log(folder / "run.lcmlog"), run, folder)
+
+    def test_metres_become_millimetres(self):
+        numbers = self.measured(explore.ICUB, 0.009)
+        self.assertEqual(numbers["E1.reached_pct"], 100)
+        self.assertAlmostEqual(numbers["E1.final_error_median_mm"], 9, places=4)
+        self.assertEqual(self.measured(explore.ICUB, 0.011)["E1.reached_pct"], 0)
+
+    def test_pixels_stay(self):
+        numbers = self.measured(explore.KOBIAN, 4.0)
+        self.assertEqual(numbers["E2.reached_pct"], 100)
+        self.assertAlmostEqual(numbers["E2.final_error_max_px"], 4, places=4)
+        self.assertEqual(self.measured(explore.KOBIAN, 6.0)["E2.reached_pct"], 0)
+
+    def test_nine_in_ten_are_asked_for(self):
+        for group in (explore.ICUB, explore.KOBIAN):
+            row = group.rows(("imle",))[0]
+            self.assertEqual((row.bar, row.met(89.0), row.met(94.0)), (90, False, True))
 
 
 if __name__ == "__main__":

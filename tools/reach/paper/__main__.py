@@ -15,11 +15,11 @@ from ..processes import ProcessDiedError
 from ..programs import ROOT
 from ..progress import Progress
 from ..session import Stop
-from . import icub, kobian, perform, report, rows
+from . import explore, icub, kobian, perform, report, rows
 from .plan import LEARNER_NAMES, Run, is_complete, plan, version
 from .replay import ReplayError
 
-GROUPS = (kobian, icub)
+GROUPS = (kobian, icub, explore.ICUB, explore.KOBIAN)
 EXPERIMENTS = tuple(name for group in GROUPS for name in group.EXPERIMENTS)
 
 

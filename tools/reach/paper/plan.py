@@ -10,7 +10,7 @@ import subprocess
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
+from typing import Any
 
 from ..programs import BINARIES, LEARNERS, ROOT
 from . import packed
@@ -20,9 +20,9 @@ LEARNER_NAMES = ("imle", *LEARNERS)  # what ships, published IMLE, LWPR
 
 @dataclass(frozen=True)
 class Run:
-    """`group` is the module of the robot's protocol: kobian or icub."""
+    """`group` is the protocol: the module kobian or icub, or one of explore's."""
 
-    group: ModuleType
+    group: Any
     learner: str
     seed: int
     quick: bool
@@ -53,7 +53,7 @@ class Run:
         }
 
 
-def plan(groups: Iterable[ModuleType], learners: Iterable[str], seeds: int,
+def plan(groups: Iterable[Any], learners: Iterable[str], seeds: int,
          quick: bool) -> list[Run]:  # fmt: skip
     """Seed by seed, so that what an interruption leaves is whole seeds."""
     return [
