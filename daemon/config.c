@@ -76,6 +76,8 @@ static const struct option_row table[] = {
           "late ticks in a row that are a fault"),
 
     NUMBER("head.gain", head_gain, "1/s", "6", 0.01, 50, "K_0 and K_1 of eq. 11, per radian"),
+    NUMBER("head.smoothing", head_smoothing, "s", "0.3", 0, 10,
+           "time constant with which it goes over to a target that the arm follows, 0 = at once"),
     NUMBER("head.search_velocity", search_velocity, "deg/s", "40", 0.1, 720,
            "speed of the search for a marker that is out of view"),
     NUMBER("head.search_dwell", search_dwell, "s", "0.15", 0, 10,
@@ -117,7 +119,7 @@ static const struct option_row table[] = {
            "what is learned: the head that fixates a marker, or a measured position"),
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
-           "time constant with which arm or head go over to a new target, 0 = at once"),
+           "time constant with which reaching goes over to a new target, 0 = at once"),
     NUMBER("task.follow_gain", follow_gain, "1/s", "3", 0, 50, "k_c of eq. 13"),
     NUMBER("task.secondary_gain", secondary_gain, "rad/s", "0.05", 0, 10,
            "K_s of eq. 4: joints towards the middle of their range, in the null space"),

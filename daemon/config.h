@@ -31,7 +31,8 @@ struct config {
     double loop_stall;                /* standstill of the loop, s */
     int overruns_fault;               /* late ticks in a row that are a fault */
 
-    double head_gain; /* eq. 11, 1/s */
+    double head_gain;      /* eq. 11, 1/s */
+    double head_smoothing; /* of the way to a target that the arm follows, s */
     double search_velocity, search_dwell;
 
     double fixation_tolerance, fixation_rest; /* px */

@@ -43,7 +43,8 @@ static void turn_head(struct behaviour *behaviour, struct control *control)
     struct targets *targets = &behaviour->targets;
     int n_arm = config_arm_joints(config);
 
-    targets_slide(config, targets->head_goal, targets->setpoint, HEAD_JOINTS);
+    targets_slide(config->period, config->head_smoothing, targets->head_goal, targets->setpoint,
+                  HEAD_JOINTS);
     head_turn(config, control->q + n_arm, targets->setpoint, control->velocity + n_arm);
     /* Shaped here, since the arm is to follow what the head really does. */
     motion_shape(config, n_arm, HEAD_JOINTS, control->q, control->previous, control->velocity);

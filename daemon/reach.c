@@ -22,7 +22,7 @@ static bool reach_step(struct behaviour *behaviour, struct control *control)
     default:
         break;
     }
-    targets_slide(config, target, setpoint, SPACE_DIMENSIONS);
+    targets_slide(config->period, config->task_smoothing, target, setpoint, SPACE_DIMENSIONS);
     control_approach(control, setpoint, config->task_gain, velocity);
     memcpy(control->target, target, sizeof control->target);
     if (sight_seen(control->sight, control->now)) {

@@ -10,6 +10,7 @@ static const char *const live[] = {
     "eyes.stale",
     "motion.",
     "head.gain",
+    "head.smoothing",
     "head.search_velocity",
     "fixation.",
     "babble.",

@@ -47,10 +47,9 @@ static void prepare(struct behaviour *behaviour, struct control *control)
     progress->phase = REACH_STATUS_T_TRACK;
 }
 
-void targets_slide(const struct config *config, const double *target, double *setpoint, int n)
+void targets_slide(double period, double smoothing, const double *target, double *setpoint, int n)
 {
-    double share =
-        config->task_smoothing > 0 ? 1 - exp(-config->period / config->task_smoothing) : 1;
+    double share = smoothing > 0 ? 1 - exp(-period / smoothing) : 1;
 
     for (int i = 0; i < n; i++)
         setpoint[i] += share * (target[i] - setpoint[i]);

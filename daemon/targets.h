@@ -24,11 +24,11 @@ enum targets_work {
 enum targets_work targets_step(struct behaviour *behaviour, struct control *control,
                                const double **target);
 
-/* The set-point slides from one target to the next instead of jumping, by a first-order filter of
- * `task.smoothing`, because a step of the wanted velocity swings a flexible tool and is more than
- * the arm can follow. It slides on the straight line between the two, and the loop about it stays
- * as it was. One period, n entries. */
-void targets_slide(const struct config *config, const double *target, double *setpoint, int n);
+/* The set-point slides from one target to the next instead of jumping, by a first-order filter,
+ * because a step of the wanted velocity swings a flexible tool and is more than the arm can follow.
+ * It slides on the straight line between the two, and the loop about it stays as it was. One
+ * period, n entries. */
+void targets_slide(double period, double smoothing, const double *target, double *setpoint, int n);
 
 /* The marker was lost for too long: back to fixation, then on with the present target. */
 void targets_refixate(struct behaviour *behaviour);
