@@ -13,7 +13,7 @@ from reach.paper import __main__ as paper
 from reach.paper import kobian
 
 TINY = {"hand": 15, "tool": 15, "again": 3, "tests": 4, "turn_seconds": 2.0,
-        "star_seconds": 1.0}  # fmt: skip
+        "star_seconds": 2.0}  # fmt: skip
 
 
 class Live(unittest.TestCase):
