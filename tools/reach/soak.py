@@ -12,6 +12,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +27,24 @@ from .progress import Progress
 from .session import Stop
 from .soak_verdict import HABITS, draw, judge
 
-TOOLS = 2  # the bare hand and the simulator's first tool
 KILLS_AN_HOUR = 30.0  # of robot time
-LEARN, PROBE, TARGETS = 15, 8, 4
-PERIOD_SECONDS = 2.0  # for each target
+TARGETS, PERIOD_SECONDS = 4, 2.0
+KEPT = 8  # samples of a look that are written down
 ROLES = {"reachd": reach.hello_t.DAEMON, "vision": reach.hello_t.VISION,
          "simrobot": reach.hello_t.SIMULATOR}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Robot:
+    """Bodies to hold, the bare hand included; samples of one babbling, and of one look. A sample is
+    a fixation for one robot and a tick for the other."""
+
+    tools: int
+    learn: int
+    probe: int
+
+
+ROBOTS = {"kobian": Robot(tools=2, learn=15, probe=8), "icub": Robot(tools=3, learn=500, probe=200)}
 
 
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
@@ -39,7 +52,7 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     add = parser.add_argument
     add("minutes", type=_minutes, help="how long, by the wall's clock")
     add("--seed", type=int, default=1, help="of every random choice; default %(default)s")
-    add("--robot", choices=("kobian", "icub"), default="kobian", help="default %(default)s")
+    add("--robot", choices=tuple(ROBOTS), default="kobian", help="default %(default)s")
     add("--kills", type=float, default=KILLS_AN_HOUR, metavar="N",
         help="programs killed in an hour of robot time; default %(default)g")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/soak", help="folder of the results")
@@ -84,6 +97,7 @@ class Silence:
 class Soak:
     def __init__(self, options: argparse.Namespace, processes: Processes, bus: Bus):
         self._random = random.Random(options.seed)
+        self._robot = ROBOTS[options.robot]
         self._processes = processes
         self._bus = bus
         self._kill_rate = options.kills / 3600.0
@@ -109,20 +123,29 @@ class Soak:
         self._number += 1
         habit = self._random.choice(HABITS)
         if habit == "tool":
-            self._experiment.take_tool(self._random.randrange(TOOLS))
+            self._experiment.take_tool(self._random.randrange(self._robot.tools))
         elif habit == "reach":
-            targets = metrics.star_targets()
-            self._experiment.star(habit, targets[:TARGETS], PERIOD_SECONDS)
+            self._reach(habit)
         else:
-            self._experiment.babble(habit, LEARN, self._seed(), learn=True)
+            self._experiment.babble(habit, self._robot.learn, self._seed(), learn=True)
         self._look(habit)
 
+    def _reach(self, habit: str) -> None:
+        """For pixels, or for where the end-effector has been seen to come."""
+        if self._bus.status.space == reach.status_t.CARTESIAN:
+            seen = [row["x"] for row in self.rows[-1:]]
+            targets = np.array(seen).reshape(-1, 3)[:TARGETS]
+        else:
+            targets = metrics.star_targets()[:TARGETS]
+        if len(targets):
+            self._experiment.reach_for(habit, targets, PERIOD_SECONDS, learn=True)
+
     def _look(self, habit: str) -> None:
-        before = len(self._bus.samples)
-        self._experiment.babble("probe", PROBE, self._seed(), learn=False)
+        self._bus.samples.clear()
+        self._experiment.babble("probe", self._robot.probe, self._seed(), learn=False)
         status = self._bus.status
-        samples = self._bus.samples[before:]
-        del self._bus.samples[:]
+        samples = list(self._bus.samples)
+        samples = samples[:: max(1, len(samples) // KEPT)]
         row = {
             "robot_s": round(self._clock.robot_seconds, 1),
             "habit": habit,
@@ -172,7 +195,6 @@ class Soak:
                 continue
         for kill in self.kills:
             kill.setdefault("recovered", self._bus.status.samples_stored)
-        del self._bus.samples[:]
 
 
 def perform(options: argparse.Namespace) -> Soak:
