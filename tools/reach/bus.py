@@ -30,6 +30,7 @@ class Bus:
         self._check = check
         self._request_seq = request_seq
         self._sim_seq = 0
+        self._held_since: float | None = None  # by what the simulator says
         self._images: list = []
         self._image_subscription = None
         self.status: reach.status_t | None = None
@@ -131,14 +132,19 @@ class Bus:
             request = _fill(reach.sim_request_t(), kind, self._sim_seq, {"until": until})
             self._lcm.publish("SIM_REQUEST", request.encode())
 
+        self._held_since = None
         self.wait(lambda: self._time() >= until or self._held_at(until, first),
                   "reachd or simrobot", send, self._time)  # fmt: skip
 
     def _held_at(self, until: int, first_seq: int) -> bool:
         """The status of that tick was lost on its way here, but the simulator, asked once more,
-        stands there: it goes on only when the daemon has answered."""
+        stands there, and has done for so long that the daemon must have answered: a request that
+        came before it does would meet another tick than in other runs."""
         truth = self.truth
-        return truth is not None and truth.request_seq > first_seq and truth.utime >= until
+        if truth is None or truth.request_seq <= first_seq or truth.utime < until:
+            return False
+        self._held_since = self._held_since or time.monotonic()
+        return time.monotonic() - self._held_since > RESEND_SECONDS
 
     def _time(self) -> int:
         return self.status.utime if self.status else -1
