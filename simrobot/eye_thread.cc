@@ -118,11 +118,38 @@ void EyeThread::expose(const EyeJob &job)
     }
     if (job.release)
         sleep_until(job.release);
+    await_turn(job.utime);
     publish(bytes);
     std::lock_guard<std::mutex> lock(mutex_);
     sent_.push_back({job.utime, std::move(bytes)});
     if (sent_.size() > most_kept)
         sent_.pop_front();
+}
+
+void EyeThread::due(int64_t utime)
+{
+    std::lock_guard<std::mutex> lock(mutex_);
+    due_ = utime;
+    changed_.notify_all();
+}
+
+void EyeThread::answered(int64_t utime)
+{
+    std::lock_guard<std::mutex> lock(mutex_);
+    answered_ = utime;
+    changed_.notify_all();
+}
+
+/* Neither a full queue, for whose sake the simulator stands, nor a clock that was set back may wait
+ * for an answer that cannot come. */
+void EyeThread::await_turn(int64_t utime)
+{
+    std::unique_lock<std::mutex> lock(mutex_);
+
+    changed_.wait(lock, [&] {
+        return may_drop_ || ending_ || sent_.empty() || answered_ >= sent_.back().utime ||
+               utime <= due_ || utime <= sent_.back().utime || jobs_.size() >= most_waiting;
+    });
 }
 
 void EyeThread::publish(const std::vector<uint8_t> &bytes)

@@ -38,6 +38,13 @@ public:
 
     void submit(EyeJob job);
 
+    /* Lockstep: a state went out with which the pair of this exposure is due; and that state was
+     * answered. A pair goes out when the one before it was answered, or when it is due itself: so
+     * many pairs never wait at vision that one is lost, and vision meets all in their order, which
+     * its answers depend on in the last digits. */
+    void due(int64_t utime);
+    void answered(int64_t utime);
+
     /* Sends the pair of this exposure once more, if it is among the last few. */
     void publish_again(int64_t utime);
 
@@ -58,6 +65,7 @@ private:
     bool start(std::string *error);
     bool next(EyeJob *job);
     void expose(const EyeJob &job);
+    void await_turn(int64_t utime);
     void publish(const std::vector<uint8_t> &bytes);
 
     const Config &config_;
@@ -72,6 +80,7 @@ private:
     std::condition_variable changed_;
     std::deque<EyeJob> jobs_;
     std::deque<Sent> sent_;
+    int64_t due_ = 0, answered_ = 0; /* exposures, us */
     bool started_ = false, failed_ = false, ending_ = false;
     std::string start_error_;
     int64_t dropped_ = 0;

@@ -102,8 +102,17 @@ void Session::publish_state()
     state_.n_joints = static_cast<int32_t>(reading.position.size());
     std::copy(reading.position.begin(), reading.position.end(), state_.position);
     std::copy(reading.velocity.begin(), reading.velocity.end(), state_.velocity);
+    if (eyes_)
+        eyes_->due(state_.vision_due);
     bus_.publish_state(state_);
     publish_truth(false, state_.seq);
+}
+
+void Session::command(const std::vector<double> &velocities)
+{
+    simulation_.command(velocities);
+    if (eyes_)
+        eyes_->answered(state_.vision_due);
 }
 
 void Session::resend_state()

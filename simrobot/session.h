@@ -76,10 +76,7 @@ public:
         return state_.seq;
     }
 
-    void command(const std::vector<double> &velocities)
-    {
-        simulation_.command(velocities);
-    }
+    void command(const std::vector<double> &velocities);
 
     /* One physics step; exposes the cameras when it is time. `release`: CLOCK_MONOTONIC us at
      * which an image exposed now may go out, 0 = as soon as it is ready. */
