@@ -92,6 +92,20 @@ reach_robot_state_t fake_robot_state(struct fake_robot *robot)
     return state;
 }
 
+void fake_robot_tick(struct fake_robot *robot, struct tick *tick, struct tick_inputs *inputs,
+                     struct tick_outputs *outputs)
+{
+    inputs->has_state = true;
+    inputs->state = fake_robot_state(robot);
+    inputs->n_observations = robot->has_marker;
+    inputs->observation[0] = robot->marker;
+    tick_decide(tick, inputs, robot->now, outputs);
+    while (tick_learn(tick))
+        ;
+    tick_report(tick, robot->now, outputs);
+    inputs->n_requests = 0;
+}
+
 void fake_robot_step(struct fake_robot *robot, const reach_robot_command_t *command)
 {
     if (robot->config->space.kind == SPACE_CARTESIAN)

@@ -8,6 +8,7 @@
 #include "observation.h"
 #include "random.h"
 #include "sizes.h"
+#include "tick.h"
 
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -42,6 +43,11 @@ void fake_robot_image(const struct fake_robot *robot, double *image);
 
 /* The encoders now. */
 reach_robot_state_t fake_robot_state(struct fake_robot *robot);
+
+/* One control step on what the robot tells now, with the requests that are in `inputs`; all samples
+ * that wait are learned. */
+void fake_robot_tick(struct fake_robot *robot, struct tick *tick, struct tick_inputs *inputs,
+                     struct tick_outputs *outputs);
 
 /* One period passes under a command. The marker of the exposure before it becomes available. */
 void fake_robot_step(struct fake_robot *robot, const reach_robot_command_t *command);

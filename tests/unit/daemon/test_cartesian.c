@@ -18,15 +18,7 @@ static int64_t request_seq;
 
 static void step(void)
 {
-    inputs.has_state = true;
-    inputs.state = fake_robot_state(&robot);
-    inputs.n_observations = robot.has_marker;
-    inputs.observation[0] = robot.marker;
-    tick_decide(tick, &inputs, robot.now, &outputs);
-    while (tick_learn(tick))
-        ;
-    tick_report(tick, robot.now, &outputs);
-    inputs.n_requests = 0;
+    fake_robot_tick(&robot, tick, &inputs, &outputs);
     fake_robot_step(&robot, &outputs.command);
 }
 

@@ -57,17 +57,7 @@ static void check_limits(void)
 
 static void step(void)
 {
-    struct tick_inputs *inputs = &world.inputs;
-
-    inputs->has_state = true;
-    inputs->state = fake_robot_state(&world.robot);
-    inputs->n_observations = world.robot.has_marker;
-    inputs->observation[0] = world.robot.marker;
-    tick_decide(world.tick, inputs, world.robot.now, &world.outputs);
-    while (tick_learn(world.tick))
-        ;
-    tick_report(world.tick, world.robot.now, &world.outputs);
-    inputs->n_requests = 0;
+    fake_robot_tick(&world.robot, world.tick, &world.inputs, &world.outputs);
     world.samples += world.outputs.has_sample;
     check_limits();
     fake_robot_step(&world.robot, &world.outputs.command);

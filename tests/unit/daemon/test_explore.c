@@ -20,15 +20,7 @@ static double least[3], most[3];                 /* of the position so far, m */
 
 static void step(void)
 {
-    inputs.has_state = true;
-    inputs.state = fake_robot_state(&robot);
-    inputs.n_observations = robot.has_marker;
-    inputs.observation[0] = robot.marker;
-    tick_decide(tick, &inputs, robot.now, &outputs);
-    while (tick_learn(tick))
-        ;
-    tick_report(tick, robot.now, &outputs);
-    inputs.n_requests = 0;
+    fake_robot_tick(&robot, tick, &inputs, &outputs);
     for (int i = 0; i < config_arm_joints(&config); i++) {
         low[i] = fmin(low[i], robot.q[i]);
         high[i] = fmax(high[i], robot.q[i]);
