@@ -13,19 +13,12 @@ from reach.messages import reach
 REACHCTL = Path(os.environ["REACH_BUILD_DIR"]) / "bin/reachctl"
 
 
-class Scripted(threading.Thread):
-    """Answers requests the way daemon and simulator do; a behaviour takes three statuses."""
+class Background(threading.Thread):
+    """Runs while its context lasts: until `_halt` is set."""
 
-    def __init__(self, result: int = reach.status_t.ACCEPTED):
+    def __init__(self):
         super().__init__(daemon=True)
-        self.result = result
-        self.requests: list[reach.request_t] = []
-        self.sim_requests: list[reach.sim_request_t] = []
-        self._busy = 0
         self._halt = threading.Event()
-        self._lcm = lcm.LCM(DEFAULT_URL)
-        self._lcm.subscribe("REACH_REQUEST", self._on_request)
-        self._lcm.subscribe("SIM_REQUEST", self._on_sim_request)
 
     def __enter__(self):
         self.start()
@@ -34,6 +27,20 @@ class Scripted(threading.Thread):
     def __exit__(self, *_):
         self._halt.set()
         self.join()
+
+
+class Scripted(Background):
+    """Answers requests the way daemon and simulator do; a behaviour takes three statuses."""
+
+    def __init__(self, result: int = reach.status_t.ACCEPTED):
+        super().__init__()
+        self.result = result
+        self.requests: list[reach.request_t] = []
+        self.sim_requests: list[reach.sim_request_t] = []
+        self._busy = 0
+        self._lcm = lcm.LCM(DEFAULT_URL)
+        self._lcm.subscribe("REACH_REQUEST", self._on_request)
+        self._lcm.subscribe("SIM_REQUEST", self._on_sim_request)
 
     def _on_request(self, _, data):
         self.requests.append(reach.request_t.decode(data))

@@ -4,7 +4,6 @@ mends the network. Each case has a network namespace of its own."""
 import json
 import os
 import subprocess
-import threading
 import time
 import unittest
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import lcm
 from reach.bus import DEFAULT_URL
 from reach.messages import ROOT, reach
+from scripted import Background
 
 BINARIES = Path(os.environ["REACH_BUILD_DIR"]) / "bin"
 NETNS = ROOT / "tools/netns.sh"
@@ -108,23 +108,14 @@ class Limits(Case):
         self.assert_finding(checks, "EGL renderer", "EGL", "apt-get install")
 
 
-class Company(threading.Thread):
+class Company(Background):
     """What others say on the bus, over and over."""
 
     def __init__(self, say, n: int = 1):
-        super().__init__(daemon=True)
+        super().__init__()
         self._buses = [lcm.LCM(DEFAULT_URL) for _ in range(n)]
         self._say = say
-        self._halt = threading.Event()
         self._buses[0].subscribe("REACH_HELLO", self._on_hello)
-
-    def __enter__(self):
-        self.start()
-        return self
-
-    def __exit__(self, *_):
-        self._halt.set()
-        self.join()
 
     def _on_hello(self, _, data):
         hello = reach.hello_t.decode(data)
