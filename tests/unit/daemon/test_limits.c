@@ -3,7 +3,7 @@
  * bytes, emergencies. The robot obeys and has no hard stops. No command violates a limit, no joint
  * leaves its range, no state of the supervisor is left without an exit.
  *
- * REACH_TEST_MINUTES is the simulated time, 20 by default. */
+ * REACH_TEST_MINUTES is the simulated time, 60 by default. */
 #include "fake_robot.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
@@ -267,7 +267,7 @@ static void begin(void)
 START_TEST(in_bad_weather_every_limit_holds)
 {
     const char *minutes = getenv("REACH_TEST_MINUTES");
-    double ticks = (minutes ? atof(minutes) : 20) * 60 / 0.02;
+    double ticks = (minutes ? atof(minutes) : 60) * 60 / 0.02;
 
     begin();
     for (int episode = 0; episode < ticks / EPISODE; episode++) {
