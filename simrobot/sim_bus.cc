@@ -35,13 +35,17 @@ std::unique_ptr<SimBus> SimBus::open(const char *url, const char *truth_url,
         *error = line;
         return nullptr;
     }
+    /* Before the role is claimed: from then on it is answered who asks whether a simulator is
+     * there, and what he sends next must be heard. */
+    if (!bus->subscribe(error))
+        return nullptr;
     int taken = bus_claim_role(bus->lcm_, REACH_HELLO_T_SIMULATOR, 300, &bus->claim_);
     if (taken != 0) {
         *error = taken > 0 ? "another simrobot is on this bus; stop it or use another --url"
                            : "the bus failed while asking for other simulators";
         return nullptr;
     }
-    return bus->subscribe(error) ? std::move(bus) : nullptr;
+    return bus;
 }
 
 bool SimBus::subscribe(std::string *error)
