@@ -76,7 +76,10 @@ int options_load_as(const struct option_row *table, void *target, const char *co
                     int n_paths, const char *override_option, const char *const *overrides,
                     int n_overrides, char *error, size_t error_size);
 
-/* Prints the table as a reference: name, unit, default, range, help. Defaults of `option_preset`
+/* Prints the table as a reference, two lines an option, of which tools/reference.py makes a page:
+ *     NAME HELP
+ *     TYPE, default VALUE | must be given[, unit U][, one of A|B][, range LOW .. HIGH]
+ * Defaults of `option_preset`
  * rows are read from `preset`, which may be NULL for a table without them. */
 void options_print(const struct option_row *table, const void *preset, FILE *out);
 

@@ -66,18 +66,47 @@ void option_text(const struct option_row *row, const void *target, char text[OPT
     }
 }
 
+static const char *type_text(enum option_type type)
+{
+    switch (type) {
+    case OPTION_BOOL:
+        return "true or false";
+    case OPTION_INT:
+        return "whole number";
+    case OPTION_NUMBER:
+        return "number";
+    case OPTION_LIST:
+        return "list of numbers";
+    case OPTION_SPREAD:
+        return "number, or list of numbers";
+    case OPTION_TEXT:
+        return "text";
+    case OPTION_CHOICE:
+        return "word";
+    }
+    return "";
+}
+
+/* What holds where no file names it; empty: it must be given. */
+static void default_text(const struct option_row *row, const void *preset,
+                         char text[OPTION_TEXT_SIZE])
+{
+    text[0] = '\0';
+    if (row->initial == option_preset)
+        option_text(row, preset, text);
+    else if (row->initial)
+        snprintf(text, OPTION_TEXT_SIZE, "%s", row->initial[0] ? row->initial : "\"\"");
+}
+
 void options_print(const struct option_row *table, const void *preset, FILE *out)
 {
+    char value[OPTION_TEXT_SIZE];
+
     for (; table->name; table++) {
-        char value[OPTION_TEXT_SIZE] = "";
-        if (table->initial == option_preset)
-            option_text(table, preset, value);
-        else if (table->initial)
-            snprintf(value, sizeof value, "%s", table->initial);
-        bool given = table->initial && table->initial != option_preset;
-        fprintf(out, "%-36s %s\n", table->name, table->help);
-        fprintf(out, "%-36s ", "");
-        fprintf(out, given || value[0] ? "default %s" : "must be given", value);
+        default_text(table, preset, value);
+        fprintf(out, "%-36s %s\n%-36s ", table->name, table->help, "");
+        fprintf(out, "%s, %s%s", type_text(table->type), value[0] ? "default " : "must be given",
+                value);
         if (table->unit)
             fprintf(out, ", unit %s", table->unit);
         if (table->choices)

@@ -33,7 +33,8 @@ const char usage[] =
     "  --calls N      updates and predictions of each case; default 4000\n"
     "  --quiet        no progress\n"
     "  -h, --help     this text\n"
-    "  -V, --version  version and git revision\n";
+    "  -V, --version  version and git revision\n"
+    "exit code: 0 done, 1 the file cannot be written, 2 wrong usage\n";
 
 struct Settings {
     const char *json = nullptr;

@@ -215,7 +215,7 @@ START_TEST(what_the_program_puts_in_is_the_default)
 
     options_print(rows, &settings, stream);
     fclose(stream);
-    ck_assert_ptr_nonnull(strstr(text, "default 8, range 1 .. 10"));
+    ck_assert_ptr_nonnull(strstr(text, "whole number, default 8, range 1 .. 10"));
     free(text);
     ck_assert_int_eq(options_load(rows, &settings, NULL, 0, overrides, 1, error, sizeof error), 0);
     ck_assert_int_eq(settings.count, 8);
@@ -233,7 +233,7 @@ START_TEST(the_reference_names_every_row)
     fclose(stream);
     for (const struct option_row *row = table; row->name; row++)
         ck_assert_ptr_nonnull(strstr(text, row->name));
-    ck_assert_ptr_nonnull(strstr(text, "default 90, unit deg/s, range 0 .. 360"));
+    ck_assert_ptr_nonnull(strstr(text, "number, default 90, unit deg/s, range 0 .. 360"));
     free(text);
 }
 END_TEST

@@ -225,7 +225,7 @@ class Numbers(Fixture):
         options = set(re.findall(r"^([\w.]+) ", listed, re.M))
         expected = fields - {"kind", "n_inputs", "n_outputs", "features"} | {"experts"}
         self.assertEqual(expected, options)
-        self.assertRegex(listed, r"hyper_sigma .*\n +default 8, ")  # 2^d
+        self.assertRegex(listed, r"hyper_sigma .*\n +number, default 8, ")  # 2^d
 
     def test_shipped_configurations_are_taken(self):
         rng = np.random.default_rng(1)
