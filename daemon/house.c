@@ -2,6 +2,7 @@
 
 #include "common/bus.h"
 #include "common/log.h"
+#include "common/status_words.h"
 
 #include <signal.h>
 #include <time.h>
@@ -43,10 +44,26 @@ static void say_what_is_awaited(struct house *house)
     }
 }
 
+static void say_fault(struct house *house)
+{
+    int8_t fault = house->status.fault;
+
+    if (fault == house->fault)
+        return;
+    house->fault = fault;
+    if (fault == REACH_STATUS_T_FAULT_NONE)
+        log_warning("the fault was reset");
+    else
+        log_error("fault: %s; the arm is held until 'reachctl reset-fault'",
+                  status_fault_word(fault));
+}
+
 static void tell_service(struct house *house)
 {
-    while (mailbox_take(daemon_bus_reports(house->bus), &house->status))
+    while (mailbox_take(daemon_bus_reports(house->bus), &house->status)) {
         house->any_status = true;
+        say_fault(house);
+    }
     service_keep(&house->service, bus_monotonic_us(), loop_ticks(house->loop),
                  loop_waits(house->loop) != LOOP_RUNS, house->any_status ? &house->status : NULL);
 }

@@ -17,6 +17,7 @@ struct house {
     struct service service;
     reach_status_t status; /* the newest */
     bool any_status;
+    int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
     int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
     int64_t said;          /* when the log was last told of it, monotonic us */
 };

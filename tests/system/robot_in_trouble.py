@@ -95,6 +95,10 @@ class Trouble:
     def log(self, name: str) -> str:
         return (Path(self._folder.name) / f"{name}.log").read_text()
 
+    def said(self, name: str, line: str) -> int:
+        """How often the log has it."""
+        return self.log(name).count(line)
+
     def _on_command(self, _, data: bytes) -> None:
         self.commands.append((time.monotonic(), reach.robot_command_t.decode(data)))
 

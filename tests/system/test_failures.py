@@ -116,6 +116,8 @@ class Failures(unittest.TestCase):
                 rest = next(t for t, c in trouble.commands[first:] if not any(c.velocity[:4]))
                 print(f"at rest {1e3 * (rest - start):.0f} ms after the emergency")
                 trouble.reset()
+            trouble.until(lambda: trouble.said("reachd", "fault: emergency stop") == 2, "said", 2)
+            trouble.until(lambda: trouble.said("reachd", "the fault was reset") == 2, "said", 2)
 
     def test_vision_is_stopped_and_killed(self):
         with Trouble(vision=True) as trouble:
