@@ -1,13 +1,14 @@
-# common/version.h.in becomes version.h with the project's version and git revision.
-find_package(Git QUIET)
-set(REACH_REVISION "unknown")
-if(GIT_FOUND)
-  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty
-                  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-                  OUTPUT_VARIABLE git_describe OUTPUT_STRIP_TRAILING_WHITESPACE
-                  ERROR_QUIET RESULT_VARIABLE git_failed)
-  if(NOT git_failed)
-    set(REACH_REVISION ${git_describe})
-  endif()
-endif()
-configure_file(${CMAKE_SOURCE_DIR}/common/version.h.in ${CMAKE_BINARY_DIR}/generated/version.h @ONLY)
+# The version with the git revision, for every program. Each build asks tools/version.sh; what holds
+# the version is made anew when it has changed, and nothing else is.
+set(REACH_VERSION_FILE ${CMAKE_BINARY_DIR}/generated/version.txt)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/generated)
+add_custom_target(reach_version BYPRODUCTS ${REACH_VERSION_FILE}
+  COMMAND ${CMAKE_SOURCE_DIR}/tools/version.sh ${REACH_VERSION_FILE} VERBATIM)
+
+# reach_put_version(template file): the template with the version in place of @REACH_VERSION@.
+function(reach_put_version template file)
+  add_custom_command(OUTPUT ${file}
+    COMMAND ${CMAKE_COMMAND} -D TEMPLATE=${template} -D FILE=${file}
+            -D VERSION_FILE=${REACH_VERSION_FILE} -P ${CMAKE_SOURCE_DIR}/cmake/put_version.cmake
+    DEPENDS ${template} ${REACH_VERSION_FILE} reach_version VERBATIM)
+endfunction()

@@ -1,4 +1,5 @@
 #include "common/bus.h"
+#include "common/version.h"
 
 #include <arpa/inet.h>
 #include <reach_hello_t.h>
@@ -9,7 +10,6 @@
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
-#include <version.h>
 
 static const char hello_channel[] = "REACH_HELLO";
 #define URL_MOST 512
@@ -162,7 +162,7 @@ struct bus_claim {
 
 static void sign(reach_hello_t *hello)
 {
-    snprintf((char *)hello->revision, sizeof hello->revision, "%s", REACH_VERSION);
+    snprintf((char *)hello->revision, sizeof hello->revision, "%s", reach_version);
 }
 
 static void on_hello(const lcm_recv_buf_t *message, const char *channel, void *user)

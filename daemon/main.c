@@ -11,7 +11,7 @@
 
 #include "common/bus.h"
 #include "common/log.h"
-#include "version.h"
+#include "common/version.h"
 
 #include <getopt.h>
 #include <reach_hello_t.h>
@@ -108,7 +108,7 @@ static int take_option(struct arguments *arguments, int option)
         config_print_options(stdout);
         return 0;
     case OPTION_VERSION:
-        puts("reachd " REACH_VERSION);
+        printf("reachd %s\n", reach_version);
         return 0;
     case 'h':
         fputs(usage, stdout);

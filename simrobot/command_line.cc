@@ -2,6 +2,7 @@
 
 #include <getopt.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 
@@ -11,7 +12,7 @@ namespace
 {
 
 const char help[] =
-    "Usage: simrobot --config FILE [option ...]\n"
+    "Usage: reach-simrobot --config FILE [option ...]\n"
     "Simulates a robot with its eyes on the LCM bus.\n"
     "\n"
     "  --config FILE       YAML configuration, such as etc/simrobot-kobian.yaml\n"
@@ -77,7 +78,7 @@ const struct option rows[] = {{"config", required_argument, nullptr, choice_conf
 
 bool wrong_usage(const char *what)
 {
-    fprintf(stderr, "simrobot: %s; see simrobot --help\n", what);
+    fprintf(stderr, "reach-simrobot: %s; see reach-simrobot --help\n", what);
     return false;
 }
 
@@ -87,8 +88,8 @@ bool set_number(const char *name, int64_t low, int64_t high, int64_t *value)
     *value = strtoll(optarg, &end, 10);
     if (end != optarg && !*end && *value >= low && *value <= high)
         return true;
-    fprintf(stderr, "simrobot: --%s %s: a whole number %lld .. %lld is wanted\n", name, optarg,
-            static_cast<long long>(low), static_cast<long long>(high));
+    fprintf(stderr, "reach-simrobot: --%s %s: a whole number %lld .. %lld is wanted\n", name,
+            optarg, static_cast<long long>(low), static_cast<long long>(high));
     return false;
 }
 
@@ -146,7 +147,7 @@ bool take(int choice, CommandLine *line)
         line->task = Task::version;
         return true;
     case '?':
-        return wrong_usage("an option is unknown or lacks its value");
+        return false; /* getopt has said why */
     default:
         return set_text_option(choice, line);
     }
@@ -171,6 +172,7 @@ bool command_line_parse(int argc, char **argv, CommandLine *line)
 {
     int choice;
 
+    argv[0] = program_invocation_short_name; /* what getopt puts in front of its complaints */
     while ((choice = getopt_long(argc, argv, "", rows, nullptr)) != -1)
         if (!take(choice, line))
             return false;

@@ -6,13 +6,13 @@
 #include "common/bus.h"
 #include "common/log.h"
 #include "common/notify.h"
+#include "common/version.h"
 #include "simrobot/command_line.h"
 #include "simrobot/egl_context.h"
 #include "simrobot/eye_tasks.h"
 #include "simrobot/eye_thread.h"
 #include "simrobot/lockstep.h"
 #include "simrobot/realtime.h"
-#include "version.h"
 
 namespace
 {
@@ -136,7 +136,7 @@ int main(int argc, char **argv)
 
     if (!sim::command_line_parse(argc, argv, &line))
         return 2;
-    log_open("simrobot", line.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
+    log_open("reach-simrobot", line.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
     catch_signals();
     switch (line.task) {
     case sim::Task::help:
@@ -146,7 +146,7 @@ int main(int argc, char **argv)
         sim::config_print_options(stdout);
         return 0;
     case sim::Task::version:
-        puts("simrobot " REACH_VERSION);
+        printf("reach-simrobot %s\n", reach_version);
         return 0;
     case sim::Task::renderer:
         return name_renderer();

@@ -60,7 +60,7 @@ check_tidy() {
 
 check_cppcheck() {
     sources '*.c' '*.cc' '*.cpp' | grep -v '^tests/' >build/cppcheck.txt
-    cppcheck --file-list=build/cppcheck.txt -j 2 -q -I . -I build/generated \
+    cppcheck --file-list=build/cppcheck.txt -j 2 -q -I . \
         --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
         --suppressions-list=cmake/cppcheck-suppressions.txt
 }

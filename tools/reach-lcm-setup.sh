@@ -43,7 +43,7 @@ case ${1:-} in
     exit 0
     ;;
 -V | --version)
-    echo "reach-lcm-setup @PROJECT_VERSION@ (@REACH_REVISION@)"
+    echo "reach-lcm-setup @REACH_VERSION@"
     exit 0
     ;;
 *)

@@ -71,7 +71,7 @@ while [ $# -gt 0 ]; do
         exit 0
         ;;
     -V | --version)
-        echo "reach-spy @PROJECT_VERSION@ (@REACH_REVISION@)"
+        echo "reach-spy @REACH_VERSION@"
         exit 0
         ;;
     *) wrong_usage "unknown option '$1'" ;;

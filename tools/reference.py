@@ -19,8 +19,8 @@ MEND = ".venv/bin/python tools/reference.py"
 # What a user calls, with what --help-options wants besides; None: it has no configuration.
 PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reachd": (),
-    "vision": (),
-    "simrobot": (),
+    "reach-vision": (),
+    "reach-simrobot": (),
     "reachctl": None,
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,

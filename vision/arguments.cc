@@ -2,14 +2,17 @@
 
 #include <getopt.h>
 
+#include <cerrno>
 #include <cstdio>
 
-#include "version.h"
+#include "common/version.h"
 #include "vision/config.h"
 
 static const char usage[] =
-    "usage: vision [--config FILE] [--set NAME=VALUE]... [--url URL] [--stats FILE] [--show]\n"
-    "              [--cameras LEFT RIGHT | --videos LEFT RIGHT | --bench PAIR [--draw FILE]]\n"
+    "usage: reach-vision [--config FILE] [--set NAME=VALUE]... [--url URL] [--stats FILE] "
+    "[--show]\n"
+    "                    [--cameras LEFT RIGHT | --videos LEFT RIGHT | --bench PAIR [--draw "
+    "FILE]]\n"
     "\n"
     "Finds the ball in pairs of pictures and says where it is on channel MARKER.\n"
     "Pairs come from channel STEREO_IMAGES unless cameras or videos are named.\n"
@@ -32,7 +35,7 @@ static const char usage[] =
 
 static int wrong_usage(const char *what)
 {
-    fprintf(stderr, "vision: %s; vision --help tells more\n", what);
+    fprintf(stderr, "reach-vision: %s; reach-vision --help tells more\n", what);
     return 2;
 }
 
@@ -98,6 +101,7 @@ int arguments_parse(int argc, char **argv, arguments *given)
 {
     int letter;
 
+    argv[0] = program_invocation_short_name; /* what getopt puts in front of its complaints */
     while ((letter = getopt_long(argc, argv, "c:s:u:hV", options, nullptr)) != -1) {
         if (keep_value(letter, given))
             continue;
@@ -106,7 +110,7 @@ int arguments_parse(int argc, char **argv, arguments *given)
         else if (letter == 'h')
             fputs(usage, stdout);
         else if (letter == 'V')
-            puts("vision " REACH_VERSION);
+            printf("reach-vision %s\n", reach_version);
         if (letter != OPT_CAMERAS && letter != OPT_VIDEOS)
             return letter == '?' ? 2 : 0;
         given->cameras |= letter == OPT_CAMERAS;

@@ -216,7 +216,7 @@ int main(int argc, char **argv)
 
     if (code >= 0)
         return code;
-    log_open("vision", LOG_LEVEL_INFO);
+    log_open("reach-vision", LOG_LEVEL_INFO);
     if (config_load(&config, given.config, given.overrides.data(),
                     static_cast<int>(given.overrides.size()), error, sizeof error)) {
         log_error("%s", error);

@@ -78,15 +78,15 @@ class Trouble:
     def start_simrobot(self) -> None:
         eyes = [] if self._vision else ["--no-eyes"]
         self.processes.start(
-            "simrobot", [programs.BINARIES / "simrobot", "--config",
+            "simrobot", [programs.BINARIES / "reach-simrobot", "--config",
                          ROOT / "etc/simrobot-kobian.yaml", "--url", self._robot_url,
                          "--truth-url", DEFAULT_URL, "--realtime", *eyes],
         )  # fmt: skip
 
     def start_vision(self) -> None:
         self.processes.start(
-            "vision", [programs.BINARIES / "vision", "--config", ROOT / "etc/vision-kobian.yaml",
-                       "--url", DEFAULT_URL],
+            "vision", [programs.BINARIES / "reach-vision",
+                       "--config", ROOT / "etc/vision-kobian.yaml", "--url", DEFAULT_URL],
         )  # fmt: skip
 
     def signal(self, name: str, number: int) -> None:

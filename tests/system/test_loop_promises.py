@@ -38,9 +38,9 @@ class LoopPromises(unittest.TestCase):
                            "--set", f"model.directory={self.folder / 'model'}", *url,
                            *daemon_clock],
             )  # fmt: skip
-            processes.start("vision", [programs.BINARIES / "vision", "--config",
+            processes.start("vision", [programs.BINARIES / "reach-vision", "--config",
                                        etc / "vision-kobian.yaml", *url])  # fmt: skip
-            processes.start("simrobot", [programs.BINARIES / "simrobot", "--config",
+            processes.start("simrobot", [programs.BINARIES / "reach-simrobot", "--config",
                                          etc / "simrobot-kobian.yaml", *url, clock])  # fmt: skip
             bus = Bus(check=processes.check)
             bus.wait(lambda: bus.status and bus.status.state == types.status_t.IDLE, "reachd",

@@ -204,10 +204,11 @@ def judge(bench: Bench) -> dict:
 
 def start(arguments, bench_vision: list):
     simulator = [
-        BUILD / "bin/simrobot", "--config", SOURCE / "etc/simrobot-kobian.yaml", "--lockstep",
+        BUILD / "bin/reach-simrobot", "--config", SOURCE / "etc/simrobot-kobian.yaml", "--lockstep",
         "--seed", arguments.seed, "--url", URL,
     ]  # fmt: skip
-    vision = [BUILD / "bin/vision", "--config", SOURCE / "etc/vision-kobian.yaml", "--url", URL]
+    eyes = SOURCE / "etc/vision-kobian.yaml"
+    vision = [BUILD / "bin/reach-vision", "--config", eyes, "--url", URL]
     for setting in arguments.sim:
         simulator += ["--set", setting]
     processes = [subprocess.Popen([str(w) for w in vision + bench_vision])]

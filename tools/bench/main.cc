@@ -9,8 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <version.h>
 
+#include "common/version.h"
 #include "tools/bench/cases.h"
 #include "tools/bench/measure.h"
 #include "tools/eval/json.h"
@@ -143,7 +143,7 @@ int read_command_line(int argc, char **argv, Settings *settings)
             fputs(usage, stdout);
             result = -1;
         } else if (code == 'V') {
-            printf("reach-bench %s\n", REACH_VERSION);
+            printf("reach-bench %s\n", reach_version);
             result = -1;
         } else {
             result = exit_usage;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/version.h"
 #include "tools/bench/tick.h"
-#include "version.h"
 
 static const char usage[] =
     "usage: reach-prime DIRECTORY EXPERTS\n"
@@ -22,10 +22,10 @@ int main(int argc, char **argv)
     if (argc == 2 && strcmp(argv[1], "--help") == 0)
         return fputs(usage, stdout) < 0;
     if (argc == 2 && strcmp(argv[1], "--version") == 0)
-        return puts("reach-prime " REACH_VERSION) < 0;
+        return printf("reach-prime %s\n", reach_version) < 0;
     experts = argc == 3 ? atoi(argv[2]) : 0;
     if (experts < 1 || experts > 1024) {
-        fputs(usage, stderr);
+        fputs("reach-prime: wants a directory and 1 to 1024 experts; --help tells more\n", stderr);
         return 2;
     }
     if (tick_prime(argv[1], experts, error, sizeof error) == 0)

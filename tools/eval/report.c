@@ -1,7 +1,6 @@
 #include "tools/eval/report.h"
 
-#include <version.h>
-
+#include "common/version.h"
 #include "tools/eval/json.h"
 #include "tools/eval/learner_options.h"
 
@@ -135,7 +134,7 @@ void report_to_json(const struct report *report, FILE *out)
 
     json_object(&json, NULL);
     json_text(&json, "program", "reach-eval");
-    json_text(&json, "version", REACH_VERSION);
+    json_text(&json, "version", reach_version);
     json_text(&json, "learner", request_learner_name(report->request->kind));
     json_number(&json, "inputs", report->request->n_inputs);
     json_number(&json, "outputs", report->request->n_outputs);

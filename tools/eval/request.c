@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <version.h>
 
+#include "common/version.h"
 #include "tools/eval/learner_options.h"
 
 static const char usage[] =
@@ -305,7 +305,7 @@ enum request_result request_read(int argc, char **argv, struct request *request)
             return REQUEST_DONE;
         }
         if (option == 'V') {
-            printf("reach-eval %s\n", REACH_VERSION);
+            printf("reach-eval %s\n", reach_version);
             return REQUEST_DONE;
         }
         if (take_option(&reading, option))

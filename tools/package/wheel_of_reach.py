@@ -14,14 +14,20 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-MODULES = ("__init__", "bus", "client", "export", "messages", "record")  # the rest wants the tree
+# The rest wants the tree.
+MODULES = ("__init__", "bus", "client", "command_line", "export", "messages", "record")
 EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"]}
 SCRIPTS = {"reach-export": "reach.export:main"}
 
 
+def _full_version() -> str:
+    """With the git revision."""
+    command = [ROOT / "tools/version.sh"]
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+
+
 def _version() -> str:
-    project = (ROOT / "CMakeLists.txt").read_text().partition("project(")[2]
-    return re.search(r"VERSION ([\d.]+)", project)[1]
+    return _full_version().split()[0]
 
 
 def _pinned(name: str) -> str:
@@ -56,6 +62,8 @@ def _bindings(folder: Path) -> dict[str, bytes]:
 
 def _content() -> dict[str, bytes]:
     files = {f"reach/{name}.py": (ROOT / f"tools/reach/{name}.py").read_bytes() for name in MODULES}
+    constant = f'"""The version, with the git revision."""\n\nVERSION = "{_full_version()}"\n'
+    files["reach/version.py"] = constant.encode()
     with tempfile.TemporaryDirectory() as folder:
         files |= _bindings(Path(folder))
     info = f"reach-{_version()}.dist-info"

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .command_line import Parser
 from .programs import BINARIES, ROOT
 from .progress import Progress
 from .studies import Study, studies
@@ -96,7 +97,7 @@ def run(options: argparse.Namespace) -> list[dict]:
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
     names = [study.name for study in studies(True)]
-    parser = argparse.ArgumentParser(prog="./run accuracy", description=__doc__.splitlines()[0])
+    parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
     parser.add_argument("--draws", type=int, default=5, help="of every study; default 5")
     parser.add_argument("--quick", action="store_true", help="a fifth of the samples")
     parser.add_argument("--only", nargs="+", choices=names, metavar="STUDY",

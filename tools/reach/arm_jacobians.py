@@ -6,7 +6,6 @@ The arm: waist yaw, roll, pitch; shoulder pitch, abduction, axial rotation; elbo
 position of the tool's tip (m). Rows whose position is not that of this arm are refused.
 """
 
-import argparse
 import gzip
 import sys
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from .arm import TOOLS, Arm
+from .command_line import Parser
 
 LARGEST_ERROR = 0.01  # m: a position farther off belongs to another arm or tool
 
@@ -30,7 +30,7 @@ def _read(path: Path) -> np.ndarray:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("--tool", choices=TOOLS, required=True)
     parser.add_argument("source", type=Path, help="CSV of 7 inputs and 3 outputs, plain or gzip")
     parser.add_argument("target", type=Path)

@@ -3,7 +3,6 @@
 What remains in the folder: bench.json (also copied to --json), table.md, cost.png.
 """
 
-import argparse
 import json
 import shutil
 import subprocess
@@ -12,6 +11,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from .command_line import Parser
 from .figures import COLOURS, PAPER
 from .programs import BINARIES, ROOT
 
@@ -88,7 +88,7 @@ def picture(rows: list[dict]) -> Figure:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__.splitlines()[0])
+    parser = Parser(prog="./run bench", description=__doc__.splitlines()[0])
     add = parser.add_argument
     add("--json", type=Path, help="write the rows here, too")
     add("--out", type=Path, default=ROOT / "out/bench", help="folder of the results")

@@ -1,6 +1,6 @@
 """How an experiment lets robot time pass: held between its decisions, or real.
 
-With the held clock (simrobot --lockstep --hold) every request meets the robot at a definite
+With the held clock (reach-simrobot --lockstep --hold) every request meets the robot at a definite
 instant, so that seed and configuration decide the whole run.
 """
 

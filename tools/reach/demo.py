@@ -10,6 +10,7 @@ from pathlib import Path
 
 from . import metrics, pictures, programs, report, summary
 from .bus import Bus, NoAnswerError
+from .command_line import Parser
 from .experiment import Experiment, ExperimentError
 from .messages import ROOT
 from .processes import ProcessDiedError
@@ -23,7 +24,7 @@ BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
 
 
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="run demo", description=__doc__)
+    parser = Parser(prog="./run demo", description=__doc__)
     add = parser.add_argument
     add("--seed", type=int, default=1, help="decides the whole run; default %(default)s")
     add("--out", type=Path, default=ROOT / "out/demo", help="folder of the results")

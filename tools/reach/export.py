@@ -5,12 +5,12 @@ import base64
 import csv
 import json
 import sys
-from importlib import metadata
 from pathlib import Path
 
 import lcm
 import numpy as np
 
+from .command_line import Parser
 from .messages import CHANNELS, bot_core
 from .record import Record, read_log
 
@@ -152,23 +152,15 @@ def _write_images(writer, log: Path) -> None:
 
 
 def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="reach-export", description=__doc__)
+    parser = Parser(prog="reach-export", description=__doc__)
     parser.add_argument("log", type=Path, help="a log of lcm-logger's or a run's, run.lcmlog")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="a CSV file a channel")
     parser.add_argument("--parquet", type=Path, metavar="DIR", help="a Parquet file a channel")
     parser.add_argument("--mcap", type=Path, metavar="FILE", help="one file, such as for Foxglove")
-    parser.add_argument("-V", "--version", action="version", version=f"reach-export {_version()}")
     options = parser.parse_args(arguments)
     if not (options.csv or options.parquet or options.mcap):
         parser.error("--csv, --parquet or --mcap is wanted")
     return options
-
-
-def _version() -> str:
-    try:
-        return metadata.version("reach")
-    except metadata.PackageNotFoundError:
-        return "in the tree"
 
 
 def export(options: argparse.Namespace) -> str:

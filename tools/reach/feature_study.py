@@ -6,13 +6,13 @@ Prints the error on random configurations, in mm, of the best ridge of a grid: t
 docs/accuracy.md. Not the learner: no mixture, no order of samples.
 """
 
-import argparse
 from itertools import combinations_with_replacement
 from math import factorial
 
 import numpy as np
 
 from .arm import TOOLS, Arm
+from .command_line import Parser
 
 RIDGES = (1e-6, 1e-5, 1e-4, 1e-3)
 CHUNK = 4000
@@ -95,7 +95,7 @@ def errors(arm: Arm, features, counts: tuple[int, ...], draws: int) -> list[floa
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = Parser(description=__doc__.splitlines()[0])
     parser.add_argument("--draws", type=int, default=3)
     parser.add_argument("--wide", action="store_true", help="joint ranges twice as wide")
     options = parser.parse_args()

@@ -20,6 +20,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .bus import DEFAULT_URL, Bus
+from .command_line import Parser
 from .figures import COLOURS, PAPER
 from .messages import reach
 from .processes import Processes
@@ -47,9 +48,11 @@ def start_robot(processes: Processes, model: Path) -> None:
     url = ("--url", DEFAULT_URL)
     processes.start("reachd", [BINARIES / "reachd", "--config", etc / "kobian.yaml", "--config",
                                etc / "learner-linear.yaml", *options, *url])  # fmt: skip
-    processes.start("vision", [BINARIES / "vision", "--config", etc / "vision-kobian.yaml", *url])
-    processes.start("simrobot", [BINARIES / "simrobot", "--config", etc / "simrobot-kobian.yaml",
-                                 "--realtime", *url])  # fmt: skip
+    eyes, robot = etc / "vision-kobian.yaml", etc / "simrobot-kobian.yaml"
+    processes.start("vision", [BINARIES / "reach-vision", "--config", eyes, *url])
+    processes.start(
+        "simrobot", [BINARIES / "reach-simrobot", "--config", robot, "--realtime", *url]
+    )
 
 
 def start_load(processes: Processes, folder: Path) -> None:
@@ -179,7 +182,7 @@ def picture(runs: list[dict]) -> Figure:
 
 
 def parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="./run jitter", description=__doc__.splitlines()[0])
+    parser = Parser(prog="./run jitter", description=__doc__.splitlines()[0])
     add = parser.add_argument
     add("--minutes", type=float, default=10.0, help="of each of the two runs (default 10)")
     add("--load", choices=LOADS, help="only this run")

@@ -10,6 +10,7 @@ import lcm
 
 from . import programs
 from .bus import NoAnswerError
+from .command_line import Parser
 from .messages import ROOT
 from .processes import ProcessDiedError
 from .session import Stop, session
@@ -70,7 +71,7 @@ def show_log(log: Path, view) -> None:
 
 
 def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="run live", description=__doc__)
+    parser = Parser(prog="./run live", description=__doc__)
     add = parser.add_argument
     add("--out", type=Path, default=ROOT / "out/live", help="folder; default %(default)s")
     add("--seed", type=int, default=1, help="of the simulated world; default %(default)s")

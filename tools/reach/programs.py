@@ -47,8 +47,8 @@ def start(
         "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,
                      "--channels", channels, out / "run.lcmlog"],
         "reachd": [BINARIES / "reachd", *daemon, *url, daemon_clock],
-        "vision": [BINARIES / "vision", "--config", eyes, *url],
-        "simrobot": [BINARIES / "simrobot", "--config", etc / f"simrobot-{robot}.yaml", *url,
+        "vision": [BINARIES / "reach-vision", "--config", eyes, *url],
+        "simrobot": [BINARIES / "reach-simrobot", "--config", etc / f"simrobot-{robot}.yaml", *url,
                      *clock, "--seed", str(seed), *simrobot],
     }  # fmt: skip
     if not eyes.exists():

@@ -4,11 +4,12 @@ Stands in for lcm-logger, which keeps at most 30 messages waiting and loses the 
 when it does not run for some 30 ms; a log with gaps would make a summary depend on the machine.
 """
 
-import argparse
 import signal
 import time
 
 import lcm
+
+from .command_line import Parser
 
 ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
 QUEUE = 100_000  # messages that may wait; a full queue drops the newest
@@ -43,7 +44,7 @@ class Recorder:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="reach.recorder", description=__doc__)
+    parser = Parser(prog="reach.recorder", description=__doc__)
     parser.add_argument("--url", required=True)
     parser.add_argument("--channels", default=ALL_BUT_IMAGES, help="pattern; default %(default)s")
     parser.add_argument("log")

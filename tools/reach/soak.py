@@ -20,6 +20,7 @@ import numpy as np
 from . import metrics, programs
 from .bus import Bus, NoAnswerError
 from .clock import START_UTIME, HeldClock
+from .command_line import Parser
 from .experiment import Experiment, ExperimentError
 from .messages import ROOT, reach
 from .processes import ProcessDiedError, Processes
@@ -48,7 +49,7 @@ ROBOTS = {"kobian": Robot(tools=2, learn=15, probe=8), "icub": Robot(tools=3, le
 
 
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="run soak", description=__doc__)
+    parser = Parser(prog="./run soak", description=__doc__)
     add = parser.add_argument
     add("minutes", type=_minutes, help="how long, by the wall's clock")
     add("--seed", type=int, default=1, help="of every random choice; default %(default)s")

@@ -176,7 +176,7 @@ static const struct command simulator_commands[] = {
     {"speed", "X", 1, CALL_SIMULATOR, REACH_SIM_REQUEST_T_SPEED, fill_speed,
      "times real time, with the real-time clock"},
     {"run-until", "T", 1, CALL_SIMULATOR, REACH_SIM_REQUEST_T_RUN_UNTIL, fill_until,
-     "run to simulated time T seconds, then hold (simrobot --hold)"},
+     "run to simulated time T seconds, then hold (reach-simrobot --hold)"},
     {"quit", "", 0, CALL_UNANSWERED, REACH_SIM_REQUEST_T_QUIT, NULL, "end the simulator"},
     {0}};
 

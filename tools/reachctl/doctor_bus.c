@@ -1,4 +1,5 @@
 #include "common/bus.h"
+#include "common/version.h"
 #include "tools/reachctl/census.h"
 #include "tools/reachctl/doctor.h"
 #include "tools/reachctl/multicast.h"
@@ -7,7 +8,6 @@
 #include <sys/random.h>
 #include <sys/socket.h>
 #include <unistd.h>
-#include <version.h>
 
 static const int64_t listen_us = 1500000;
 enum { PACKET_MOST = 65536 };
@@ -67,7 +67,7 @@ void doctor_bus(const char *url, struct findings *findings)
         findings_add(findings, VERDICT_OK, "messages", "they get through");
         ask_who_is_there(lcm, &census);
         listen_to(descriptor, &census);
-        census_report(&census, REACH_VERSION, findings);
+        census_report(&census, reach_version, findings);
     }
     if (descriptor >= 0)
         close(descriptor);

@@ -88,10 +88,9 @@ static void check_memory(struct findings *findings)
     grant(findings, "memlock", 524288);
 }
 
-/* The simulator beside this program, or where packages put it. Returns false when there is none. */
+/* The simulator beside this program. Returns false when there is none. */
 static bool find_simulator(char *path, size_t size)
 {
-    static const char *const places[] = {"simrobot", "../libexec/reach/simrobot"};
     char self[PATH_MAX];
     ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
 
@@ -99,10 +98,7 @@ static bool find_simulator(char *path, size_t size)
         return false;
     self[length] = '\0';
     dirname(self);
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
-        if (snprintf(path, size, "%s/%s", self, places[i]) < (int)size && access(path, X_OK) == 0)
-            return true;
-    return false;
+    return snprintf(path, size, "%s/reach-simrobot", self) < (int)size && access(path, X_OK) == 0;
 }
 
 /* What the program writes first, on stdout or stderr; returns its exit code, -1 when it failed. */
@@ -129,7 +125,8 @@ static void check_renderer(struct findings *findings)
     char line[256];
 
     if (!find_simulator(path, sizeof path)) {
-        findings_add(findings, VERDICT_SKIPPED, "EGL renderer", "no simrobot is installed here");
+        findings_add(findings, VERDICT_SKIPPED, "EGL renderer",
+                     "no reach-simrobot is installed here");
     } else if (first_line(path, "--renderer", line, sizeof line) == 0) {
         findings_add(findings, VERDICT_OK, "EGL renderer", "%s", line);
     } else {

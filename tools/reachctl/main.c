@@ -1,4 +1,5 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
+#include "common/version.h"
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor.h"
@@ -10,7 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <version.h>
 
 enum { EXIT_USAGE = 2, MAX_WORDS = 8 };
 
@@ -120,7 +120,7 @@ static int take_option(int option, struct command_settings *settings)
         command_print_help(stdout);
         return -1;
     case 'V':
-        printf("reachctl %s\n", REACH_VERSION);
+        printf("reachctl %s\n", reach_version);
         return -1;
     default:
         return EXIT_USAGE; /* getopt has said why */

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from ..bus import NoAnswerError
+from ..command_line import Parser
 from ..experiment import ExperimentError
 from ..processes import ProcessDiedError
 from ..programs import ROOT
@@ -24,7 +25,7 @@ EXPERIMENTS = tuple(name for group in GROUPS for name in group.EXPERIMENTS)
 
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="./run paper", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
