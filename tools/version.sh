@@ -5,6 +5,7 @@
 # prints it; with FILE writes it there, and leaves a FILE that holds it untouched.
 set -eu
 root=$(dirname "$(readlink -f "$0")")/..
+# shellcheck disable=SC2016 # git expands it, not the shell
 archived='$Format:%h$'
 
 # Only of a repository whose root this is: a copy inside another one is not of that one's revision.

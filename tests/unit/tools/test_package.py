@@ -145,7 +145,7 @@ class Installed(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
             self.assertIn(log.name, result.stderr)
         self.assertIn("usage: reach-export", self.export("--help").stdout)
-        self.assertRegex(self.export("--version").stdout, r"^reach-export \d+\.\d+\.\d+\n$")
+        self.assertRegex(self.export("--version").stdout, r"^reach-export \d+\.\d+\.\d+ \(\w+(-dirty)?\)\n$")
 
     def test_examples(self):
         result = self.python(ROOT / "examples/reading_a_log.py", self.log)
