@@ -1,8 +1,6 @@
-/* What breaks learners: still data, offsets, forgetting, extreme scales, input that is no number;
- * and that nothing is allocated after creation. */
-#include <dlfcn.h>
+/* What breaks learners: still data, offsets, forgetting, extreme scales, input that is no number.
+ */
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,61 +11,6 @@
 
 static struct learner_prediction prediction;
 static struct learner_inverse inverse;
-
-static volatile long allocations;
-static volatile long locks;
-
-/* glibc's allocator, counted; the sanitizers bring their own, which must stay. */
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-void *__libc_malloc(size_t bytes);
-void *__libc_calloc(size_t n, size_t bytes);
-void *__libc_realloc(void *block, size_t bytes);
-void *malloc(size_t bytes)
-{
-    allocations++;
-    return __libc_malloc(bytes);
-}
-
-void *calloc(size_t n, size_t bytes)
-{
-    allocations++;
-    return __libc_calloc(n, bytes);
-}
-
-void *realloc(void *block, size_t bytes)
-{
-    allocations++;
-    return __libc_realloc(block, bytes);
-}
-#endif
-
-/* The lock, counted; the sanitizers' own must stay. */
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-int pthread_mutex_lock(pthread_mutex_t *mutex)
-{
-    static int (*real)(pthread_mutex_t *);
-
-    locks++;
-    if (!real) {
-        void *found = dlsym(RTLD_NEXT, "pthread_mutex_lock");
-        memcpy(&real, &found, sizeof real);
-    }
-    return real(mutex);
-}
-
-START_TEST(the_counted_lock_counts)
-{
-    pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-    long before = locks;
-    int result = pthread_mutex_lock(&mutex);
-    long counted = locks - before; /* finding the real one may take locks, too */
-
-    ck_assert_int_eq(result, 0);
-    ck_assert_int_ge(counted, 1);
-    ck_assert_int_eq(pthread_mutex_unlock(&mutex), 0);
-}
-END_TEST
-#endif
 
 static struct learner_config config_for(enum learner_features features, double alpha)
 {
@@ -224,42 +167,6 @@ START_TEST(what_is_no_number_is_refused)
 }
 END_TEST
 
-static void expect_no_allocation_or_lock(const struct learner_config *config)
-{
-    struct learner *learner = bed_create(config);
-    struct learner_solution single;
-    long before = allocations;
-    long locks_before = locks;
-
-    for (int n = 0; n < 500; n++) {
-        double z[2] = {bed_uniform(-1.0, 1.0), bed_uniform(-1.0, 1.0)};
-        double x[2] = {sin(3.0 * z[0]) + n % 2, cos(3.0 * z[1])};
-        learner_update(learner, z, x);
-        learner_predict(learner, z, &prediction);
-        learner_predict_single(learner, z, &single);
-        learner_predict_inverse(learner, x, &inverse);
-    }
-    long allocated = allocations - before;
-    long locked = locks - locks_before; /* before Check takes locks of its own */
-    ck_assert_int_eq(allocated, 0);
-    ck_assert_int_eq(locked, 0);
-    ck_assert_int_gt(learner_get_statistics(learner).experts, 3);
-    bed_clean();
-}
-
-START_TEST(nothing_is_allocated_or_locked_after_creation)
-{
-    struct learner_config lwpr = lwpr_config(0.999);
-
-    bed_seed();
-    for (int features = LEARNER_LINEAR; features <= LEARNER_POLYNOMIAL; features++) {
-        struct learner_config config = config_for((enum learner_features)features, 0.999);
-        expect_no_allocation_or_lock(&config);
-    }
-    expect_no_allocation_or_lock(&lwpr);
-}
-END_TEST
-
 /* A whitener that a million samples have gone through is that of the matrix they add up to. */
 START_TEST(whiteners_do_not_drift)
 {
@@ -367,13 +274,9 @@ int main(void)
         receptive_fields_stay_finite_on_collinear_and_huge_inputs,
         collinear_and_huge_inputs_stay_finite,
         what_is_no_number_is_refused,
-        nothing_is_allocated_or_locked_after_creation,
         whiteners_do_not_drift,
         a_million_still_samples_break_nothing,
         units_do_not_matter,
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-        the_counted_lock_counts,
-#endif
     };
 
     return SUITE_RUN("learner numerics", tests);
