@@ -51,3 +51,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     COMPILE_OPTIONS "${REACH_KERNEL_OPTIONS};-mavx512f")
   target_compile_definitions(reach_learner PRIVATE REACH_KERNELS_X86)
 endif()
+
+# Its parameters from YAML, for programs that know no robot.
+add_library(reach_learner_options STATIC ${CMAKE_CURRENT_LIST_DIR}/learner_options.c)
+target_link_libraries(reach_learner_options PUBLIC reach_learner reach_common PRIVATE reach_warnings)

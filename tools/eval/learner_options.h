@@ -1,6 +1,5 @@
-/* The learner's parameters as options: the rows of daemon/learner_rows.h and the arrays of struct
- * learner_config, in YAML without a prefix ("degree: 4", "psi0: [1e-4, 1e-4, 9]") or as
- * "name=value". Defaults are those of learner_config_default(). */
+/* The learner's options (daemon/learner_options.h) as reach-eval takes them: from YAML files and as
+ * "name=value"; printed, and as JSON. */
 #ifndef REACH_EVAL_LEARNER_OPTIONS_H
 #define REACH_EVAL_LEARNER_OPTIONS_H
 
