@@ -6,18 +6,27 @@
 #include "model_store.h"
 
 #include <pthread.h>
+#include <semaphore.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 struct keeper {
     struct model_store *store;
+    /* Called by the thread after each look at the store, NULL: nobody cares. Set before the start.
+     */
+    void (*looked)(void *user);
+    void *user;
     pthread_t thread;
+    sem_t work;
     _Atomic bool ending;
 };
 
 /* Returns 0, or -1 with one line in `error`. */
 int keeper_start(struct keeper *keeper, struct model_store *store, char *error, size_t error_size);
+
+/* Lets it look at the store at once; it does so every 20 ms anyway. For any thread. */
+void keeper_wake(struct keeper *keeper);
 
 /* Ends the thread after what it is at; the store may then be closed. */
 void keeper_stop(struct keeper *keeper);

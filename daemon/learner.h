@@ -23,6 +23,8 @@ extern "C" {
 #define LEARNER_MAX_INPUTS 16
 #define LEARNER_MAX_OUTPUTS 8
 #define LEARNER_MAX_SOLUTIONS 16
+/* Inputs and outputs beyond this are refused, so that their squares can be computed with. */
+#define LEARNER_LARGEST_NUMBER 1e9
 
 enum learner_kind {
     LEARNER_IMLE, /* infinite mixture of experts linear in features */

@@ -9,9 +9,8 @@
 extern "C" {
 #endif
 
-/* Inputs, outputs and features beyond these are refused: their squares must stay far from the end
- * of a double's range. */
-#define LEARNER_LARGEST_NUMBER 1e9
+/* Features beyond this are refused: their squares must stay far from the end of a double's range.
+ */
 #define LEARNER_LARGEST_FEATURE 1e60
 
 struct learner_ops {

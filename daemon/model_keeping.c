@@ -29,7 +29,7 @@ static void give_up_journal(struct model_store *store, int64_t now, const char *
     atomic_store_explicit(&store->storing, false, memory_order_relaxed);
     store->retry_at = now + retry_us;
     if (strcmp(trouble, store->trouble) != 0)
-        log_error("%s; control goes on, what is learned from here on is not stored", trouble);
+        log_error("%s; what is learned from here on is not stored", trouble);
     memcpy(store->trouble, trouble, sizeof trouble);
 }
 

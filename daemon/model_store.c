@@ -72,7 +72,7 @@ static int take_directory(struct model_store *store, bool shared, char *error, s
     }
     if (store->files->lock(file, shared)) {
         snprintf(error, error_size, "model.directory: %s: %s", directory,
-                 errno == EWOULDBLOCK ? "another reachd keeps its model there; end it first, or "
+                 errno == EWOULDBLOCK ? "another program keeps its model there; end it first, or "
                                         "give this one a directory of its own"
                                       : strerror(errno));
         store->files->close(file);

@@ -125,7 +125,7 @@ static void full_disk(struct trial *trial)
     fill(trial);
     live_until(trial, does_not_store, "a full disk is not noticed");
     goes_on_without(trial);
-    has_said(trial, "No space left on device; control goes on");
+    has_said(trial, "No space left on device; what is learned from here");
     path_in(trial, "filler", path, sizeof path);
     unlink(path);
     live_until(trial, stores_again, "nothing is stored when there is space again");
@@ -144,7 +144,7 @@ static void read_only_directory(struct trial *trial)
     if ((uint64_t)trial->robot.status.model_samples < base)
         trial_fail(trial, "a read-only model is not read");
     goes_on_without(trial);
-    has_said(trial, "Read-only file system; control goes on");
+    has_said(trial, "Read-only file system; what is learned from here");
     kill_and_judge(trial);
     make_read_only(trial, false);
     if (trial->base != base)
@@ -176,7 +176,7 @@ static void second_daemon(struct trial *trial)
     trial_start(trial);
     live_until(trial, stores_some, "nothing is stored");
     refuses(trial, "--url", "udpm://239.255.76.67:7999?ttl=0",
-            "another reachd keeps its model there");
+            "another program keeps its model there");
     kill_and_judge(trial);
     puts("a second daemon on another bus: refused");
 }

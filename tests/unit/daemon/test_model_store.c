@@ -187,7 +187,7 @@ START_TEST(what_was_learned_is_there_at_the_next_start)
     }
     /* Whoever comes second gets a reason. */
     ck_assert_ptr_null(store_bench_try(&settings, error, sizeof error).store);
-    ck_assert_ptr_nonnull(strstr(error, "another reachd"));
+    ck_assert_ptr_nonnull(strstr(error, "another program"));
     ck_assert_int_eq(model_store_check(&settings, error, sizeof error), -1);
     store_bench_close(&bench);
     ck_assert_int_eq(model_store_check(&settings, error, sizeof error), 0);
