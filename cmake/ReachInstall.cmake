@@ -3,7 +3,7 @@
 # those of packages.
 include(GNUInstallDirs)
 
-foreach(program reachd reachctl reach-eval reach-bench)
+foreach(program reachd reach-learner reachctl reach-eval reach-bench)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

@@ -21,6 +21,7 @@ PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reachd": (),
     "reach-vision": (),
     "reach-simrobot": (),
+    "reach-learner": (),
     "reachctl": None,
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,

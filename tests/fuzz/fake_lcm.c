@@ -48,6 +48,13 @@ int lcm_unsubscribe(lcm_t *lcm, lcm_subscription_t *subscription)
     return 0;
 }
 
+int lcm_subscription_set_queue_capacity(lcm_subscription_t *subscription, int messages)
+{
+    (void)subscription;
+    (void)messages;
+    return 0;
+}
+
 int lcm_publish(lcm_t *lcm, const char *channel, const void *data, unsigned int size)
 {
     (void)lcm;

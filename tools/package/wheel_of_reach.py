@@ -15,7 +15,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # The rest wants the tree.
-MODULES = ("__init__", "bus", "client", "command_line", "export", "messages", "record")
+MODULES = (
+    "__init__", "bus", "client", "command_line", "export", "learner", "messages", "record",
+)  # fmt: skip
 EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"]}
 SCRIPTS = {"reach-export": "reach.export:main"}
 

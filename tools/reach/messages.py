@@ -32,6 +32,9 @@ CHANNELS = {
     "REACH_REQUEST": "request_t",
     "SIM_REQUEST": "sim_request_t",
     "SIM_TRUTH": "sim_truth_t",
+    "LEARNER_REQUEST": "learner_request_t",
+    "LEARNER_REPLY": "learner_reply_t",
+    "LEARNER_PREDICTION": "learner_prediction_t",
 }
 
 _SCALARS = {"int8_t": ">i1", "int32_t": ">i4", "int64_t": ">i8", "double": ">f8"}
