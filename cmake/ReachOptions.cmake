@@ -33,3 +33,6 @@ target_compile_options(reach_warnings INTERFACE
   -Wall -Wextra -Werror -Wshadow -Wundef -Wpointer-arith -Wcast-qual -Wformat=2
   $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes -Wmissing-prototypes -Wconversion -Wvla>
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)
+
+# Python with the packages of requirements.txt: ./run setup makes it.
+find_program(REACH_PYTHON python NAMES python3 PATHS ${CMAKE_SOURCE_DIR}/.venv/bin NO_DEFAULT_PATH)

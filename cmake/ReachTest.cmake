@@ -38,7 +38,6 @@ endfunction()
 
 # reach_python_test(name script.py LABEL unit|system [NETNS] [TIMEOUT seconds] [ARGS ...]): a
 # unittest script, run by the project's virtual environment where there is one.
-find_program(REACH_PYTHON python NAMES python3 PATHS ${CMAKE_SOURCE_DIR}/.venv/bin NO_DEFAULT_PATH)
 function(reach_python_test name script)
   cmake_parse_arguments(T "NETNS" "LABEL;TIMEOUT" "ARGS" ${ARGN})
   if(NOT REACH_PYTHON)

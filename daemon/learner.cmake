@@ -34,8 +34,9 @@ add_library(reach_learner STATIC
   ${CMAKE_CURRENT_LIST_DIR}/lwpr_learn.c
   ${CMAKE_CURRENT_LIST_DIR}/lwpr_predict.c
   ${CMAKE_CURRENT_LIST_DIR}/lwpr_store.c)
-target_include_directories(reach_learner PUBLIC ${CMAKE_SOURCE_DIR})
-target_link_libraries(reach_learner PRIVATE reach_warnings PUBLIC m)
+target_include_directories(reach_learner PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_link_libraries(reach_learner PRIVATE $<BUILD_INTERFACE:reach_warnings> PUBLIC m)
 
 # The inner loops, once for each vector width. -fno-trapping-math lets the compiler turn a choice
 # between two numbers into a vector instruction; it changes no result.

@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "daemon/arena.h"
+#include "arena.h"
 
 #ifdef __cplusplus
 extern "C" {

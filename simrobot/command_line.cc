@@ -12,7 +12,7 @@ namespace
 {
 
 const char help[] =
-    "Usage: reach-simrobot --config FILE [option ...]\n"
+    "usage: reach-simrobot --config FILE [option ...]\n"
     "Simulates a robot with its eyes on the LCM bus.\n"
     "\n"
     "  --config FILE       YAML configuration, such as etc/simrobot-kobian.yaml\n"
@@ -31,7 +31,8 @@ const char help[] =
     "  --bench-eyes N      draw and encode N image pairs, print the time of each part, and exit\n"
     "  --renderer          name what draws, or say what is missing, and exit\n"
     "  --verbose           more on stderr\n"
-    "  --help, --version\n"
+    "  --help              this text\n"
+    "  --version           version and git revision\n"
     "\n"
     "Exit status: 0 ended as asked, 1 something failed, 2 wrong usage.\n";
 

@@ -67,7 +67,7 @@ check_cppcheck() {
 
 check_python() { .venv/bin/ruff check -q . && .venv/bin/ruff format -q --check .; }
 
-check_shell() { sources '*.sh' run .ci/run | xargs -r shellcheck -x; }
+check_shell() { sources '*.sh' '*.bash' run .ci/run | xargs -r shellcheck -x; }
 
 # The loop thread: no recursion, no forbidden call, a bounded stack.
 check_loop() { .venv/bin/python tools/loop_stack.py; }

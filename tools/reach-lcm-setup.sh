@@ -11,11 +11,11 @@ usage() {
     cat <<'TEXT'
 usage: reach-lcm-setup [--dry-run]
 
-Does what is missing of:
-  the multicast flag of the loopback interface
-  a route for multicast, by the loopback: nothing leaves the machine
-  receive buffers that pairs of raw images fit in
-As root. It lasts until the machine is switched off; reach-lcm-setup.service does it at each start.
+Does what is missing of three things: the multicast flag of the loopback interface, a route for
+multicast by it, so that nothing leaves the machine, and receive buffers that pairs of raw images
+fit in.
+
+To be called by root. It lasts until the machine is switched off; reach-lcm-setup.service does it at each start.
 
   --dry-run       print the commands, do nothing
   -h, --help      this text

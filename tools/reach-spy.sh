@@ -18,9 +18,9 @@ messages, a click on a number plots it.
   -h, --help      this text
   -V, --version   version and git revision
 
-It wants Java 11 or newer, lcm.jar and jchart2d.jar:
-  apt-get install openjdk-17-jre liblcm-java libjchart2d-java
-and our types, which the build makes when a JDK is there: apt-get install openjdk-17-jdk-headless
+It wants Java 11 or newer, lcm.jar and jchart2d.jar (apt-get install default-jre liblcm-java
+libjchart2d-java), and our types, which the build makes when a JDK is there (default-jdk-headless).
+
 exit code: 0 the window was closed, 1 something is missing or failed, 2 wrong usage
 TEXT
 }

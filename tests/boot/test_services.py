@@ -146,7 +146,7 @@ class Services(unittest.TestCase):
         eventually(lambda: self.status().get("samples_stored", 0) >= learned, "the model is back")
 
     def test_a_reload_is_refused_or_taken(self):
-        file = "/usr/local/etc/reach/kobian.yaml"
+        file = "/etc/reach/kobian.yaml"
         before = self.machine.property("reachd.service", "MainPID")
         self.addCleanup(self.machine.run, "cp", f"{file}.kept", file)
         self.machine.run("cp", file, f"{file}.kept")

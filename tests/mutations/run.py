@@ -92,7 +92,8 @@ class Workshop:
         # -w: a fault may leave something unused, which is not what must notice it.
         flags = [f"-DCMAKE_{language}_FLAGS=-O1 -w" for language in ("C", "CXX")]
         self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
-                 "-DCMAKE_BUILD_TYPE=None", f"-DREACH_PYTHON={sys.executable}", *flags)  # fmt: skip
+                 "-DCMAKE_BUILD_TYPE=None", "-DREACH_INSTALL=OFF",
+                 f"-DREACH_PYTHON={sys.executable}", *flags)  # fmt: skip
         command = ["ninja", "-C", self.build, "-t", "targets", "all"]
         listing = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         self.targets = {line.split(":")[0] for line in listing.splitlines()}

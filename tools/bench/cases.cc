@@ -1,8 +1,10 @@
 #include "tools/bench/cases.h"
 
+#include <climits>
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/eval/etc_directory.h"
 #include "tools/eval/learner_options.h"
 
 namespace
@@ -64,8 +66,9 @@ Case tick(int experts)
 
 std::vector<Case> all_cases()
 {
-    const char *icub = REACH_ETC_DIR "/learner-icub.yaml";
-    const char *kobian = REACH_ETC_DIR "/learner-kobian-offline.yaml";
+    char icub[PATH_MAX], kobian[PATH_MAX];
+    etc_file("learner-icub.yaml", icub, sizeof icub);
+    etc_file("learner-kobian-offline.yaml", kobian, sizeof kobian);
     return {
         linear(7, 40, 0.013, 20000, 0.14),
         linear(7, 130, 0.008, 10000, 0.3),

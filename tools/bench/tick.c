@@ -1,5 +1,6 @@
 #include "tools/bench/tick.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "daemon/tick.h"
 #include "daemon/tick_private.h"
 #include "tests/unit/daemon/fake_robot.h"
+#include "tools/eval/etc_directory.h"
 
 enum { MOST_SAMPLES = 200000, SAMPLES_PER_TOOL = 2000 };
 
@@ -25,7 +27,9 @@ struct bench {
 /* The published experts, and so little tolerance that many are born. */
 static int load_config(struct config *config, const char *directory, char *error, size_t error_size)
 {
-    const char *paths[] = {REACH_ETC_DIR "/kobian.yaml", REACH_ETC_DIR "/learner-linear.yaml"};
+    char robot[PATH_MAX], learner[PATH_MAX];
+    const char *paths[] = {etc_file("kobian.yaml", robot, sizeof robot),
+                           etc_file("learner-linear.yaml", learner, sizeof learner)};
     char kept[600];
     const char *overrides[] = {"learner.capacity=1024", "learner.noise_angle=0.05",
                                "learner.noise_disparity=0.3", kept};

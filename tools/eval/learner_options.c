@@ -1,8 +1,10 @@
 #include "tools/eval/learner_options.h"
 
+#include <limits.h>
 #include <math.h>
 
 #include "daemon/learner_options.h"
+#include "tools/eval/etc_directory.h"
 
 static const struct option_row rows[] = {LEARNER_OPTION_ROWS, OPTION_END};
 
@@ -33,17 +35,18 @@ const char *learner_options_shipped(enum learner_kind kind, int n_inputs, int n_
     static const struct {
         enum learner_kind kind;
         int n_inputs;
-        const char *path;
+        const char *name;
     } shipped[] = {
-        {LEARNER_IMLE, 7, REACH_ETC_DIR "/learner-icub.yaml"},
-        {LEARNER_IMLE, 4, REACH_ETC_DIR "/learner-kobian-offline.yaml"},
-        {LEARNER_LWPR, 7, REACH_ETC_DIR "/learner-icub-lwpr.yaml"},
-        {LEARNER_LWPR, 4, REACH_ETC_DIR "/learner-kobian-offline-lwpr.yaml"},
+        {LEARNER_IMLE, 7, "learner-icub.yaml"},
+        {LEARNER_IMLE, 4, "learner-kobian-offline.yaml"},
+        {LEARNER_LWPR, 7, "learner-icub-lwpr.yaml"},
+        {LEARNER_LWPR, 4, "learner-kobian-offline-lwpr.yaml"},
     };
+    static char path[PATH_MAX];
 
     for (size_t i = 0; i < sizeof shipped / sizeof shipped[0] && n_outputs == 3; i++)
         if (shipped[i].kind == kind && shipped[i].n_inputs == n_inputs)
-            return shipped[i].path;
+            return etc_file(shipped[i].name, path, sizeof path);
     return NULL;
 }
 

@@ -28,7 +28,8 @@ struct learner_sources {
 int learner_options_load(const struct learner_sources *sources, struct learner_config *config,
                          char *error, size_t error_size);
 
-/* The configuration that ships for a robot with these dimensions, or NULL. */
+/* The configuration that ships for a robot with these dimensions, or NULL; valid until the next
+ * call. */
 const char *learner_options_shipped(enum learner_kind kind, int n_inputs, int n_outputs);
 
 /* Every option: name, meaning, default for these dimensions. */

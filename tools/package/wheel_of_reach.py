@@ -1,5 +1,7 @@
 """Builds the wheel of the Python package `reach`, as pip asks for it (PEP 517).
 
+    wheel_of_reach.py FOLDER   puts what would be in it there, for cmake --install
+
 A wheel is a zip file with three lists beside the modules. Built here rather than by setuptools, it
 needs no package from the network and puts nothing into the tree; what is special about this one is
 that lcm-gen makes the message bindings while it is built.
@@ -8,7 +10,9 @@ that lcm-gen makes the message bindings while it is built.
 import base64
 import hashlib
 import re
+import shutil
 import subprocess
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -16,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 # The rest wants the tree.
 MODULES = (
-    "__init__", "bus", "client", "command_line", "export", "learner", "messages", "record",
+    "__init__", "bus", "client", "command_line", "event_log", "export", "learner", "messages",
+    "record",
 )  # fmt: skip
 EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"]}
 SCRIPTS = {"reach-export": "reach.export:main"}
@@ -85,17 +90,32 @@ def _record(files: dict[str, bytes], own_name: str) -> bytes:
     return "".join([*rows, f"{own_name},,\n"]).encode()
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None) -> str:
-    """Called by pip."""
+def _files() -> dict[str, bytes]:
     files = _content()
     own_name = f"reach-{_version()}.dist-info/RECORD"
-    files[own_name] = _record(files, own_name)
+    return files | {own_name: _record(files, own_name)}
+
+
+def put_into(folder: Path) -> None:
+    """In place of what is there."""
+    shutil.rmtree(folder, ignore_errors=True)
+    for name, data in _files().items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None) -> str:
+    """Called by pip."""
     name = f"reach-{_version()}-py3-none-any.whl"
     with zipfile.ZipFile(Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
-        for path, data in files.items():
+        for path, data in _files().items():
             wheel.writestr(path, data)
     return name
 
 
 def build_sdist(sdist_directory, config_settings=None) -> str:
     raise NotImplementedError("reach is built from the project's tree alone")
+
+
+if __name__ == "__main__":
+    put_into(Path(sys.argv[1]))

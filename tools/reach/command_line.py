@@ -10,7 +10,8 @@ class Parser(argparse.ArgumentParser):
     """Explains exit codes at the end of its help."""
 
     def __init__(self, **settings):
-        super().__init__(epilog=EXIT_CODES, **settings)
+        super().__init__(epilog=EXIT_CODES, add_help=False, **settings)
+        self.add_argument("-h", "--help", action="help", help="this text")
         self.add_argument("-V", "--version", action=_Version, help="version and git revision")
 
     def error(self, message: str) -> NoReturn:

@@ -1,4 +1,4 @@
-"""reach-export: a log in the formats of other tools."""
+"""Writes what a log holds in the formats of other tools."""
 
 import argparse
 import base64
@@ -7,10 +7,10 @@ import json
 import sys
 from pathlib import Path
 
-import lcm
 import numpy as np
 
 from .command_line import Parser
+from .event_log import events
 from .messages import CHANNELS, bot_core
 from .record import Record, read_log
 
@@ -134,7 +134,7 @@ def _write_images(writer, log: Path) -> None:
         "frame_id": {"type": "string"}, "format": {"type": "string"},
         "data": {"type": "string", "contentEncoding": "base64"}}}).encode()  # fmt: skip
     topics: dict[str, int] = {}
-    for event in lcm.EventLog(str(log)):
+    for event in events(log):
         if event.channel != IMAGES:
             continue
         pair = bot_core.images_t.decode(event.data)

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-import lcm
 import numpy as np
 
 from . import messages
+from .event_log import events
 
 
 class Record:
@@ -38,7 +38,7 @@ def read_log(path: Path) -> Record:
     }
     chunks: dict[str, list[bytes]] = {channel: [] for channel in dtypes}
     refused = 0
-    for event in lcm.EventLog(str(path)):
+    for event in events(path):
         dtype = dtypes.get(event.channel)
         if dtype is None:
             continue

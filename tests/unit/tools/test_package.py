@@ -145,7 +145,8 @@ class Installed(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
             self.assertIn(log.name, result.stderr)
         self.assertIn("usage: reach-export", self.export("--help").stdout)
-        self.assertRegex(self.export("--version").stdout, r"^reach-export \d+\.\d+\.\d+ \(\w+(-dirty)?\)\n$")
+        version = r"^reach-export \d+\.\d+\.\d+ \(\w+(-dirty)?\)\n$"
+        self.assertRegex(self.export("--version").stdout, version)
 
     def test_examples(self):
         result = self.python(ROOT / "examples/reading_a_log.py", self.log)
