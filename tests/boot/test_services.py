@@ -12,6 +12,7 @@ from machine import Machine
 
 BUILD = Path(os.environ["REACH_BUILD_DIR"])
 ALL = ["reachd.service", "reach-vision.service", "reach-simrobot.service"]
+LEARNER = "reach-learner.service"
 STOP_SECONDS = 2.0
 LARGEST_EXPOSURE = 2.0
 
@@ -167,11 +168,28 @@ class Services(unittest.TestCase):
             eventually(lambda unit=unit: self.state(unit) == "inactive", unit, STOP_SECONDS)
             self.assertEqual(self.machine.property(unit, "Result"), "success", unit)
 
+    def test_the_learner_for_others(self):
+        """Started when somebody wants it; its model outlives a kill."""
+        self.machine.run("systemctl", "start", LEARNER)
+        self.assertEqual(self.state(LEARNER), "active")
+        eventually(
+            lambda: self.machine.property(LEARNER, "StatusText").startswith("0 samples, "),
+            "it says how it goes",
+        )
+        self.machine.run("systemctl", "kill", "--signal", "SIGKILL", LEARNER)
+        eventually(
+            lambda: "generation 0" in self.journal() and self.state(LEARNER) == "active",
+            f"it takes its model up again; {self.journal()}",
+        )
+        self.machine.run("systemctl", "stop", LEARNER)
+        self.assertEqual(self.machine.property(LEARNER, "Result"), "success")
+
     def test_exposure(self):
-        table = self.machine.run("systemd-analyze", "security", "--no-pager", *ALL)
+        units = [*ALL, LEARNER]
+        table = self.machine.run("systemd-analyze", "security", "--no-pager", *units)
         figures = {
             unit: float(re.search(rf"exposure level for {unit}: ([\d.]+)", table)[1])
-            for unit in ALL
+            for unit in units
         }
         print("exposure:", figures)
         for unit, exposure in figures.items():

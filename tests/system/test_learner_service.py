@@ -3,8 +3,10 @@
 import math
 import os
 import random
+import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -104,13 +106,13 @@ class Requests(Service):
         clients = [Learner(), Learner()]
         drawn = chance()
         lines = [Lossy(client, drawn) for client in clients]
-        for number in range(40):
+        for number in range(20):
             self.assertTrue(clients[number % 2].update(*branches(number)).stored)
-        many = [branches(number) for number in range(40, 100)]
+        many = [branches(number) for number in range(20, 60)]
         numbers = [learned.sample for learned in clients[0].update_all(*zip(*many, strict=True))]
-        self.assertEqual(sorted(numbers), list(range(41, 101)))
+        self.assertEqual(sorted(numbers), list(range(21, 61)))
         known = Learner().statistics
-        self.assertEqual(known.samples, 100)
+        self.assertEqual(known.samples, 60)
         self.assertGreater(known.repeated, 0)
         self.assertGreater(min(line.lost for line in lines), 0)
 
@@ -133,6 +135,19 @@ class Requests(Service):
         known = client.statistics
         self.assertEqual(known.samples, 1)
         self.assertGreaterEqual(known.late, 3)
+
+    def test_the_example(self):
+        self.start()
+        command = [sys.executable, ROOT / "examples/learn_a_function.py"]
+        result = subprocess.run(
+            command, cwd=self.folder, capture_output=True, text=True, timeout=60
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+        share, off = re.search(r"two values at (\d+)% of the places, at most (\S+) off",
+                               result.stdout).groups()  # fmt: skip
+        self.assertGreaterEqual(int(share), 95)
+        self.assertLess(float(off), 0.1)
+        self.assertGreater((self.folder / "learn_a_function.png").stat().st_size, 10_000)
 
     def test_what_is_wrong_is_refused(self):
         self.start()

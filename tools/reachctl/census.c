@@ -3,6 +3,8 @@
 #include <arpa/inet.h>
 #include <math.h>
 #include <reach_end_effector_t.h>
+#include <reach_learner_prediction_t.h>
+#include <reach_learner_reply_t.h>
 #include <reach_marker_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -28,9 +30,11 @@ static const struct {
     {"REACH_TRACE", __reach_trace_t_get_hash},
     {"REACH_SAMPLE", __reach_sample_t_get_hash},
     {"SIM_TRUTH", __reach_sim_truth_t_get_hash},
+    {"LEARNER_REPLY", __reach_learner_reply_t_get_hash},
+    {"LEARNER_PREDICTION", __reach_learner_prediction_t_get_hash},
 };
 
-static const char *const roles[] = {"reachd", "simrobot", "vision"};
+static const char *const roles[] = {"reachd", "simrobot", "vision", "reach-learner"};
 enum { N_ROLES = sizeof roles / sizeof roles[0] };
 
 static void take_sender(struct census *census, int index, const struct sender *from)
