@@ -34,6 +34,8 @@ const struct option_row robot_rows[] = {
      "joint angles at the start and after a reset, arm then head", nullptr},
     {"robot.hard_stops", OPTION_BOOL, AT(hard_stops), nullptr, "true", 0, 0,
      "mechanical stops at the URDF's limits; without them an over-run can be seen", nullptr},
+    {"robot.collisions", OPTION_BOOL, AT(collisions), nullptr, "false", 0, 0,
+     "the URDF's <collision> shapes and the tool stop each other; else they pass through", nullptr},
     {"motor.arm_acceleration", OPTION_NUMBER, AT(arm_acceleration), "deg/s2", "600", 10, 100000,
      "how fast the drivers of the arm let the speed change", nullptr},
     {"motor.head_acceleration", OPTION_NUMBER, AT(head_acceleration), "deg/s2", "1500", 10, 100000,

@@ -40,6 +40,7 @@ struct Config {
     char right_eye[OPTION_MAX_TEXT];
     struct option_list start;
     bool hard_stops;
+    bool collisions;
 
     double arm_acceleration;
     double head_acceleration;

@@ -60,6 +60,8 @@ private:
         for (const auto &visual : link.visual_array)
             if (!add_visual(link, *visual, segment, pose))
                 return false;
+        for (const auto &collision : link.collision_array)
+            add_collision(link, *collision, segment, pose);
         std::map<std::string, urdf::LinkConstSharedPtr> children;
         for (const auto &child : link.child_links)
             children[child->name] = child;
@@ -150,6 +152,19 @@ private:
                            : Eigen::Vector3f(0.7f, 0.7f, 0.7f);
         description_->segments[static_cast<size_t>(index)].shapes.push_back(shape);
         return true;
+    }
+
+    /* What cannot be simulated matters only to who asks for collisions (rig_load). */
+    void add_collision(const urdf::Link &link, const urdf::Collision &collision, int index,
+                       const Eigen::Isometry3d &pose)
+    {
+        Shape shape = {};
+        if (!collision.geometry || !set_geometry(*collision.geometry, &shape)) {
+            description_->mesh_link = link.name;
+            return;
+        }
+        shape.pose = pose * pose_of(collision.origin);
+        description_->segments[static_cast<size_t>(index)].collisions.push_back(shape);
     }
 
     static bool set_geometry(const urdf::Geometry &geometry, Shape *shape)

@@ -15,7 +15,8 @@ namespace sim
 
 enum class ShapeKind { sphere, cylinder, box, capsule };
 
-/* Something to be drawn, and to hide what is behind it. Cylinder and capsule lie along z. */
+/* Something to be drawn, to hide what is behind it, or to bump into. Cylinder and capsule lie along
+ * z. */
 struct Shape {
     ShapeKind kind;
     Eigen::Vector3d size; /* box: edges; sphere: radius; else radius, length (without caps) */
@@ -34,8 +35,9 @@ struct Segment {
     double velocity;          /* largest speed of its motor, rad/s */
     double mass;
     Eigen::Vector3d centre_of_mass;
-    Eigen::Matrix3d inertia; /* about the centre of mass, axes of the segment */
-    std::vector<Shape> shapes;
+    Eigen::Matrix3d inertia;       /* about the centre of mass, axes of the segment */
+    std::vector<Shape> shapes;     /* URDF's <visual> */
+    std::vector<Shape> collisions; /* URDF's <collision>, without colour */
 };
 
 /* Where a link of the URDF sits. */
@@ -48,6 +50,8 @@ struct Description {
     std::string path;
     std::vector<Segment> segments; /* [0] is the base, which stands still */
     std::map<std::string, LinkFrame> links;
+    std::string
+        mesh_link; /* one whose <collision> is not simulated, for it is a mesh; "" if none */
 };
 
 /* Reads a URDF file; every fault is refused with the file and the name of the joint or link.

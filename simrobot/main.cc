@@ -1,4 +1,5 @@
 /* simrobot: start-up order, signals, shut-down. */
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -86,6 +87,10 @@ bool run(const sim::CommandLine &line, const sim::Config &config, sim::Simulatio
     bool good = line.lockstep ? sim::lockstep_run(config, session, *bus, stopping, error)
                               : sim::realtime_run(config, session, *bus, stopping, error);
     notify_send("STOPPING=1");
+    if (config.collisions)
+        log_info("robot and tool touched each other for %.1f %% of the time",
+                 100.0 * static_cast<double>(simulation.touching_steps()) /
+                     static_cast<double>(std::max<int64_t>(simulation.steps(), 1)));
     log_info("ended after %.3f s of the world's time, %lld messages refused",
              static_cast<double>(simulation.elapsed()) * 1e-6,
              static_cast<long long>(bus->refused()));

@@ -38,6 +38,23 @@ bool find_link(const Rig &rig, const char *name, LinkFrame *frame, std::string *
     return true;
 }
 
+/* Who asks for collisions is told what would not collide. */
+bool find_collisions(const Config &config, const Rig &rig, std::string *error)
+{
+    const Description &description = rig.description;
+    bool any = std::any_of(description.segments.begin(), description.segments.end(),
+                           [](const Segment &segment) { return !segment.collisions.empty(); });
+
+    if (!config.collisions || (any && description.mesh_link.empty()))
+        return true;
+    *error = description.path + ": robot.collisions: " +
+             (any || !description.mesh_link.empty()
+                  ? "<collision> of link " + description.mesh_link +
+                        " is a mesh; make it of boxes, cylinders and spheres"
+                  : "no link has <collision>");
+    return false;
+}
+
 bool find_eyes(const Config &config, Rig *rig, std::string *error)
 {
     size_t n_head = rig->joints.size() - static_cast<size_t>(rig->n_arm);
@@ -108,7 +125,7 @@ bool rig_load(const Config &config, Rig *rig, std::string *error)
         *error = "robot.start: " + std::to_string(rig->joints.size()) + " angles are wanted";
         return false;
     }
-    return find_eyes(config, rig, error);
+    return find_collisions(config, *rig, error) && find_eyes(config, rig, error);
 }
 
 std::vector<Eigen::Isometry3d> rig_forward(const Rig &rig, const std::vector<double> &angles)

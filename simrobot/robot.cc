@@ -106,4 +106,16 @@ std::vector<Eigen::Isometry3d> Robot::segment_poses() const
     return poses;
 }
 
+std::vector<BodyShape> Robot::collisions(int segment) const
+{
+    const Segment &description = rig_.description.segments[static_cast<size_t>(segment)];
+    std::vector<BodyShape> result;
+
+    for (Shape shape : description.collisions) {
+        shape.pose = Eigen::Translation3d(-description.centre_of_mass) * shape.pose;
+        result.push_back({body(segment), shape});
+    }
+    return result;
+}
+
 } // namespace sim

@@ -32,6 +32,9 @@ public:
     /* Poses of all segments in the base's frame. */
     std::vector<Eigen::Isometry3d> segment_poses() const;
 
+    /* What of a segment others bump into. */
+    std::vector<BodyShape> collisions(int segment) const;
+
     /* The body of a segment; nullptr for the base, which does not move. */
     dBodyID body(int segment) const
     {

@@ -166,6 +166,16 @@ void Session::publish_truth(bool exposure, int64_t seq)
     message.x_fixation[2] = truth.fixation.disparity;
     message.x_valid = truth.fixation.within_limits;
     bus_.publish_truth(message);
+    if (!exposure)
+        publish_contacts(truth);
+}
+
+/* Most of the time nothing touches: that is not said again and again. */
+void Session::publish_contacts(const Truth &truth)
+{
+    if (truth.touching || touched_)
+        bus_.publish_contacts({now(), state_.seq, truth.touching, truth.deepest});
+    touched_ = truth.touching > 0;
 }
 
 } // namespace sim

@@ -24,7 +24,8 @@ struct ClockControl {
 class Session
 {
 public:
-    /* `eyes` may be nullptr; `send_truth` false: nothing ever goes out on SIM_TRUTH. */
+    /* `eyes` may be nullptr; `send_truth` false: nothing ever goes out on SIM_TRUTH and
+     * SIM_CONTACTS. */
     Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
             const ClockControl &control, bool send_truth);
 
@@ -88,6 +89,7 @@ private:
     void expose(int64_t release);
     void measure_effector();
     void publish_truth(bool exposure, int64_t seq);
+    void publish_contacts(const Truth &truth);
 
     Simulation &simulation_;
     SimBus &bus_;
@@ -98,6 +100,7 @@ private:
     Exposures exposures_;
     int64_t start_ = 0;
     int64_t request_seq_ = 0;
+    bool touched_ = false; /* when it was last told what touches */
     reach_robot_state_t state_ = {};
     reach_end_effector_t effector_ = {};
 };

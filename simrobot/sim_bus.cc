@@ -185,4 +185,9 @@ void SimBus::publish_truth(const reach_sim_truth_t &truth)
     reach_sim_truth_t_publish(truth_lcm_, "SIM_TRUTH", &truth);
 }
 
+void SimBus::publish_contacts(const reach_sim_contacts_t &contacts)
+{
+    reach_sim_contacts_t_publish(truth_lcm_, "SIM_CONTACTS", &contacts);
+}
+
 } // namespace sim

@@ -5,6 +5,7 @@
 #include <reach_end_effector_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
+#include <reach_sim_contacts_t.h>
 #include <reach_sim_request_t.h>
 #include <reach_sim_truth_t.h>
 
@@ -28,8 +29,8 @@ struct Command {
 class SimBus
 {
 public:
-    /* `url` and `truth_url` NULL or "": the default; a truth_url of its own puts SIM_REQUEST and
-     * SIM_TRUTH there. Refuses when another simulator is on the bus.
+    /* `url` and `truth_url` NULL or "": the default; a truth_url of its own puts SIM_REQUEST,
+     * SIM_TRUTH and SIM_CONTACTS there. Refuses when another simulator is on the bus.
      *   returns nullptr with one line in `error`. */
     static std::unique_ptr<SimBus> open(const char *url, const char *truth_url,
                                         std::vector<std::string> joint_names, std::string *error);
@@ -52,6 +53,7 @@ public:
     void publish_state(const reach_robot_state_t &state);
     void publish_effector(const reach_end_effector_t &effector);
     void publish_truth(const reach_sim_truth_t &truth);
+    void publish_contacts(const reach_sim_contacts_t &contacts);
 
     /* Counts and warns of, at most once a second, something from outside that was refused. */
     void refuse(const char *what, const std::string &why);

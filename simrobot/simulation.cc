@@ -14,7 +14,10 @@ Simulation::Simulation(const Config &config, const Rig &rig, uint64_t seed)
 {
     for (int i = 0; i < config.start.n; i++)
         start_[static_cast<size_t>(i)] = config.start.value[i];
-    reset();
+    robot_.reset(start_);
+    if (config.collisions)
+        contacts_ = std::make_unique<Contacts>(world_, rig, robot_);
+    make_tool();
 }
 
 void Simulation::reset()
@@ -30,6 +33,8 @@ void Simulation::make_tool()
 
     tool_.reset();
     tool_ = std::make_unique<Tool>(world_, robot_.body(rig_.hand.segment), hand, config_, chosen);
+    if (contacts_)
+        contacts_->take_tool(*tool_);
 }
 
 bool Simulation::set_tool(int tool)
@@ -51,8 +56,11 @@ void Simulation::command(const std::vector<double> &velocities)
 void Simulation::step()
 {
     robot_.drive_motors();
+    if (contacts_)
+        contacts_->find();
     world_.step();
     steps_++;
+    touching_steps_ += contacts_ && contacts_->touching();
 }
 
 double Simulation::reading_error()
@@ -120,6 +128,8 @@ Truth Simulation::truth() const
     truth.ball = tool_->ball();
     truth.ball_speed = tool_->ball_velocity().norm();
     truth.visible = -1;
+    truth.touching = contacts_ ? contacts_->touching() : 0;
+    truth.deepest = contacts_ ? contacts_->depth() : 0;
     if (!rig_.has_eyes)
         return truth;
     Eigen::Isometry3d left = rig_link(rig_.left_eye, poses);

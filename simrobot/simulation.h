@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "simrobot/contacts.h"
 #include "simrobot/light.h"
 #include "simrobot/mounts.h"
 #include "simrobot/random.h"
@@ -40,6 +41,8 @@ struct Truth {
     bool in_view;   /* the centre lies inside both images */
     double visible; /* share of the ball that the right eye sees */
     Fixation fixation;
+    int touching;   /* pairs of shapes, links' and tool's, that touch; 0 without collisions */
+    double deepest; /* how far they overlap at most, m */
 };
 
 /* The control period. */
@@ -74,6 +77,12 @@ public:
     int64_t steps() const
     {
         return steps_;
+    }
+
+    /* Those at which something touched. */
+    int64_t touching_steps() const
+    {
+        return touching_steps_;
     }
 
     /* Of all steps so far, us; exact. */
@@ -115,6 +124,7 @@ private:
     World world_;
     Robot robot_;
     std::unique_ptr<Tool> tool_;
+    std::unique_ptr<Contacts> contacts_; /* nullptr: all pass through all */
     int tool_index_ = 0;
     Light light_;
     Mounts mounts_;
@@ -122,6 +132,7 @@ private:
     Random encoder_random_, effector_random_;
     std::vector<double> start_;
     int64_t steps_ = 0;
+    int64_t touching_steps_ = 0;
 };
 
 } // namespace sim

@@ -156,9 +156,10 @@ Eigen::Vector3d Tool::ball_velocity() const
     return {velocity[0], velocity[1], velocity[2]};
 }
 
-void Tool::append_shapes(std::vector<Shape> *shapes) const
+std::vector<BodyShape> Tool::pieces() const
 {
     const double *colour = tool_.colour.value;
+    std::vector<BodyShape> result;
 
     for (const Piece &piece : pieces_) {
         if (piece.length <= 0)
@@ -166,9 +167,18 @@ void Tool::append_shapes(std::vector<Shape> *shapes) const
         Shape shape = {};
         shape.kind = ShapeKind::capsule;
         shape.size = {tool_.radius, piece.length, 0};
-        shape.pose = body_pose(piece.body) * Eigen::Translation3d(piece.centre);
+        shape.pose = Eigen::Translation3d(piece.centre);
         shape.colour = Eigen::Vector3d(colour[0], colour[1], colour[2]).cast<float>();
-        shapes->push_back(shape);
+        result.push_back({piece.body, shape});
+    }
+    return result;
+}
+
+void Tool::append_shapes(std::vector<Shape> *shapes) const
+{
+    for (BodyShape piece : pieces()) {
+        piece.shape.pose = body_pose(piece.body) * piece.shape.pose;
+        shapes->push_back(piece.shape);
     }
 }
 

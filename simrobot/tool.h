@@ -32,7 +32,10 @@ public:
     Eigen::Vector3d ball() const;
     Eigen::Vector3d ball_velocity() const;
 
-    /* Appends what is to be drawn of the tool, without the ball. */
+    /* Its capsules, without the ball. */
+    std::vector<BodyShape> pieces() const;
+
+    /* Appends what is to be drawn of the tool, without the ball: the same in the base's frame. */
     void append_shapes(std::vector<Shape> *shapes) const;
 
 private:

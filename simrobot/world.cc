@@ -8,7 +8,7 @@ namespace
 /* ODE is set up once for the process, whatever the number of worlds. */
 void start_ode()
 {
-    static const bool started = (dInitODE2(0), true);
+    static const bool started = (dInitODE2(0), dRandSetSeed(1), true);
     (void)started;
 }
 

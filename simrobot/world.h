@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "simrobot/description.h"
+
 namespace sim
 {
 
@@ -35,6 +37,12 @@ public:
 private:
     dWorldID id_;
     double step_;
+};
+
+/* A shape in the frame of the body that carries it; nullptr: in the base's frame. */
+struct BodyShape {
+    dBodyID body;
+    Shape shape;
 };
 
 /* Pose of a body's frame, whose origin is its centre of mass. */

@@ -81,6 +81,18 @@ def visual(frame: np.ndarray, geometry: str, material: str) -> str:
     )
 
 
+def collision(frame: np.ndarray, geometry: str) -> str:
+    return (
+        f"    <collision>\n      {origin(frame)}\n      <geometry>{geometry}</geometry>\n"
+        "    </collision>\n"
+    )
+
+
+def solid(frame: np.ndarray, geometry: str, material: str) -> str:
+    """Seen, and bumped into."""
+    return visual(frame, geometry, material) + collision(frame, geometry)
+
+
 def frame_along(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """In the middle between two points, z towards the second."""
     z = (end - start) / np.linalg.norm(end - start)
@@ -92,10 +104,10 @@ def frame_along(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return frame
 
 
-def rod(start: np.ndarray, end: np.ndarray, radius: float, material: str) -> str:
+def rod(start: np.ndarray, end: np.ndarray, radius: float, material: str, made=visual) -> str:
     length = np.linalg.norm(end - start)
     geometry = f'<cylinder radius="{radius}" length="{length:.6g}"/>'
-    return visual(frame_along(start, end), geometry, material)
+    return made(frame_along(start, end), geometry, material)
 
 
 def inertial(centre: np.ndarray, mass: float, size: float) -> str:
@@ -126,15 +138,25 @@ def point(frame: np.ndarray) -> np.ndarray:
     return frame[:3, 3]
 
 
-def chest_visual(shoulder: np.ndarray) -> str:
-    """From the waist up to between the shoulders; the chest's frame has z along its yaw axis."""
+def lower_body() -> str:
+    """Hips and legs, in the root frame, whose y is to the right."""
+    text = rod(np.array([0, 0, -0.25]), np.zeros(3), 0.06, "dark", solid)
+    for side in (-0.068, 0.068):
+        text += rod(np.array([0, side, -0.58]), np.array([0, side, -0.15]), 0.05, "dark", solid)
+    return text
+
+
+def upper_body(chest: np.ndarray, shoulder: np.ndarray) -> str:
+    """Trunk, shoulder girdle and head, in the chest's frame, which is at `chest` in the root's and
+    has z down its yaw axis. The trunk is so narrow that an arm that hangs does not touch it."""
     middle = shoulder * [0, 0, 1]
-    head = np.eye(4)
+    trunk, head = np.eye(4), np.eye(4)
+    trunk[:3, 3] = [0, 0, 0.125]
     head[:3, 3] = middle * 1.75
     return (
-        rod(np.zeros(3), middle, 0.055, "blue")
+        solid(np.linalg.inv(chest) @ trunk, '<box size="0.10 0.13 0.15"/>', "blue")
         + rod(middle, shoulder, 0.035, "shell")
-        + visual(head, '<sphere radius="0.075"/>', "shell")
+        + solid(head, '<sphere radius="0.075"/>', "shell")
     )
 
 
@@ -150,8 +172,7 @@ def build() -> str:
     ground = np.diag([-1.0, -1.0, 1.0, 1.0])
     ground[2, 3] = ROOT_HEIGHT
     text = link("ground", "") + joint("stand", "ground", "root", ground)
-    hips = rod(np.array([0, 0, -0.25]), np.zeros(3), 0.06, "dark")
-    text += link("root", hips)
+    text += link("root", lower_body())
 
     parent, frame = "root", H0
     for (name, *_, degrees), after in zip(TABLE[:7], transforms[:7], strict=True):
@@ -160,18 +181,18 @@ def build() -> str:
         end = point(hand) if name == "elbow" else point(after)
         content = inertial(end / 2, mass, 0.1 if name == "waist_yaw" else 0.05)
         if name == "waist_yaw":
-            content += chest_visual(end)
+            content += upper_body(H0 @ transforms[0] @ transforms[1], end)
         elif name == "elbow":
-            content += rod(point(after), point(wrist), 0.026, "shell")
+            content += rod(point(after), point(wrist), 0.026, "shell", solid)
         elif np.linalg.norm(end) > 0.03:
-            content += rod(np.zeros(3), end, 0.03, "shell")
+            content += rod(np.zeros(3), end, 0.03, "shell", solid)
         text += joint(name, parent, child, frame, rest) + link(child, content)
         parent, frame = child, after
     palm = np.eye(4)
     palm[:3, 3] = [-0.03, 0, -0.02]
     text += joint("hand_mount", parent, "hand", hand)
     text += link("hand", inertial(point(palm), HAND_MASS, 0.03)
-                 + visual(palm, '<box size="0.08 0.07 0.02"/>', "dark"))  # fmt: skip
+                 + solid(palm, '<box size="0.08 0.07 0.02"/>', "dark"))  # fmt: skip
     return HEADER + text + "</robot>\n"
 
 

@@ -35,6 +35,7 @@ CHANNELS = {
     "LEARNER_REQUEST": "learner_request_t",
     "LEARNER_REPLY": "learner_reply_t",
     "LEARNER_PREDICTION": "learner_prediction_t",
+    "SIM_CONTACTS": "sim_contacts_t",
 }
 
 _SCALARS = {"int8_t": ">i1", "int32_t": ">i4", "int64_t": ">i8", "double": ">f8"}

@@ -35,8 +35,41 @@ struct Stage {
 std::unique_ptr<Stage> stage(std::initializer_list<const char *> overrides,
                              const std::vector<double> &degrees, int tool = 0, uint64_t seed = 1);
 
+/* A URDF in a file of its own that goes with the test. */
+class UrdfFile
+{
+public:
+    explicit UrdfFile(const std::string &text);
+    ~UrdfFile();
+    UrdfFile(const UrdfFile &) = delete;
+    UrdfFile &operator=(const UrdfFile &) = delete;
+
+    /* A shipped configuration with this robot in the place of its own. */
+    sim::Config config(std::initializer_list<const char *> overrides = {},
+                       const char *name = "simrobot-kobian.yaml") const;
+
+    /* What loading that says; "" if it is taken. */
+    std::string complaint(std::initializer_list<const char *> overrides = {}) const;
+
+    const char *path() const
+    {
+        return path_;
+    }
+
+private:
+    char path_[40] = "/tmp/simrobot-test-XXXXXX";
+};
+
+/* The text of a shipped configuration's URDF, and text with every `old_text` replaced. */
+std::string shipped_urdf(const char *name = "simrobot-kobian.yaml");
+std::string replaced(std::string text, const std::string &old_text, const std::string &new_text);
+
 /* Lets time go by. */
 void steps(sim::Simulation &simulation, int n);
+
+/* Position control of all joints towards `degrees` for so many periods; what is left of the joint
+ * that is furthest away, degrees. */
+double go_to(sim::Simulation &simulation, const std::vector<double> &degrees, int periods = 300);
 
 /* REACH_TEST_SEED, else one from the clock; printed, so that a failure can be repeated. */
 uint64_t test_seed();

@@ -20,10 +20,11 @@ inline lcm_t *open_bus(const char *url = nullptr)
     return lcm;
 }
 
-inline std::unique_ptr<sim::SimBus> open_simulator(const char *truth_url = nullptr)
+inline std::unique_ptr<sim::SimBus> open_simulator(const char *truth_url = nullptr,
+                                                   size_t joints = 6)
 {
     std::string error;
-    auto bus = sim::SimBus::open(nullptr, truth_url, {"a", "b", "c", "d", "e", "f"}, &error);
+    auto bus = sim::SimBus::open(nullptr, truth_url, std::vector<std::string>(joints, "a"), &error);
     if (!bus)
         ck_abort_msg("%s", error.c_str());
     return bus;
@@ -39,6 +40,7 @@ public:
         reach_robot_state_t_subscribe(lcm_, "ROBOT_STATE", on_state, this);
         reach_end_effector_t_subscribe(lcm_, "END_EFFECTOR", on_effector, this);
         reach_sim_truth_t_subscribe(truth_lcm_, "SIM_TRUTH", on_truth, this);
+        reach_sim_contacts_t_subscribe(truth_lcm_, "SIM_CONTACTS", on_contacts, this);
         lcm_subscribe(lcm_, "STEREO_IMAGES", on_images, this);
     }
 
@@ -111,6 +113,7 @@ public:
 
     std::vector<reach_robot_state_t> states;
     std::vector<reach_sim_truth_t> truths;
+    std::vector<reach_sim_contacts_t> contacts;
     std::vector<reach_end_effector_t> effectors;
     std::vector<std::string> order; /* of what came, channel by channel */
     std::vector<std::vector<uint8_t>> images;
@@ -134,6 +137,12 @@ private:
                          void *user)
     {
         static_cast<Partner *>(user)->truths.push_back(*truth);
+    }
+
+    static void on_contacts(const lcm_recv_buf_t *, const char *,
+                            const reach_sim_contacts_t *contacts, void *user)
+    {
+        static_cast<Partner *>(user)->contacts.push_back(*contacts);
     }
 
     static void on_images(const lcm_recv_buf_t *message, const char *, void *user)

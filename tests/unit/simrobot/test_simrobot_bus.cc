@@ -235,6 +235,34 @@ START_TEST(test_without_truth_nothing_is_told)
 }
 END_TEST
 
+/* What touches is said while it does, and once more when it does no longer. */
+START_TEST(test_contacts_are_told_with_the_truth)
+{
+    for (bool truth : {true, false}) {
+        sim::Config config = fixture::config({}, "simrobot-icub.yaml");
+        sim::Rig rig = fixture::rig(config);
+        sim::Simulation simulation(config, rig, 1);
+        Partner partner;
+        auto bus = open_simulator(nullptr, 7);
+        sim::Session session(config, simulation, *bus, nullptr, {}, truth);
+
+        session.publish_state();
+        fixture::go_to(simulation, {0, 0, 80, 80, 0, 0, 10}, 100);
+        session.publish_state();
+        session.publish_state();
+        fixture::go_to(simulation, {-40, 40, 40, 50, 0, 0, 10}, 100);
+        for (int i = 0; i < 3; i++)
+            session.publish_state();
+        ck_assert(partner.wait([&] { return partner.states.size() == 6; }));
+        ck_assert_uint_eq(partner.contacts.size(), truth ? 3 : 0);
+        for (size_t i = 0; i < partner.contacts.size(); i++) {
+            ck_assert_int_eq(partner.contacts[i].seq, static_cast<int64_t>(i) + 2);
+            ck_assert_int_eq(partner.contacts[i].touching > 0, i < 2);
+        }
+    }
+}
+END_TEST
+
 START_TEST(test_truth_may_go_elsewhere)
 {
     Partner here, there(other_url);
@@ -314,6 +342,7 @@ int main()
                             test_quit_ends_the_run,
                             test_pause_and_resume,
                             test_without_truth_nothing_is_told,
+                            test_contacts_are_told_with_the_truth,
                             test_truth_may_go_elsewhere,
                             test_runs_with_eyes_repeat_to_the_byte,
                             test_image_that_is_due_comes_again};

@@ -1,72 +1,16 @@
 /* What the simulator refuses: robots and configurations that cannot be. */
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "fixture.h"
 #include "simrobot/exposures.h"
 #include "suite.h"
 
+using fixture::replaced;
+using fixture::shipped_urdf;
+using fixture::UrdfFile;
+
 namespace
 {
-
-/* A URDF in a file of its own that goes with the test. */
-class UrdfFile
-{
-public:
-    explicit UrdfFile(const std::string &text)
-    {
-        int file = mkstemp(path_);
-        ck_assert_int_ge(file, 0);
-        ck_assert_int_eq(write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-        close(file);
-    }
-
-    ~UrdfFile()
-    {
-        unlink(path_);
-    }
-
-    /* What loading the shipped configuration with this robot says; "" if it is taken. */
-    std::string complaint(std::initializer_list<const char *> overrides = {}) const
-    {
-        sim::Config config = fixture::config(overrides);
-        sim::Rig rig;
-        std::string error;
-        snprintf(config.urdf, sizeof config.urdf, "%s", path_);
-        return sim::rig_load(config, &rig, &error) ? "" : error;
-    }
-
-    const char *path() const
-    {
-        return path_;
-    }
-
-private:
-    char path_[40] = "/tmp/simrobot-test-XXXXXX";
-};
-
-std::string shipped_urdf()
-{
-    sim::Config config = fixture::config();
-    std::ifstream file(config.urdf);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-std::string replaced(std::string text, const std::string &old_text, const std::string &new_text)
-{
-    size_t at = text.find(old_text);
-    ck_assert(at != std::string::npos);
-    for (; at != std::string::npos; at = text.find(old_text, at + new_text.size()))
-        text.replace(at, old_text.size(), new_text);
-    return text;
-}
 
 void assert_names(const std::string &complaint, std::initializer_list<const char *> words)
 {

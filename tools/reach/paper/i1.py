@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import summary
+from ..clock import PERIOD_US
 from ..record import Record
 from . import i2, replay, series
 from .rows import Row
@@ -36,7 +37,16 @@ def measure(record: Record, run: dict, folder: Path) -> dict[str, float]:
     result["I1.s2.change_pct"] = _change(result, "s2", "phase2", "phase3")
     for words, name in (("hand", "phase1"), ("stick", "phase2"), ("L", "phase4")):
         result[f"I1.experts.{words}"] = float(curve["experts"][at[name]])
+        result[f"I1.touching.{words}_pct"] = _touching(record, run, name)
     return result
+
+
+def _touching(record: Record, run: dict, name: str) -> float:
+    """Share of a phase's ticks at which arm or tool touched the body, %."""
+    phase = summary.phase_named(run, name)
+    rows = record.between("SIM_CONTACTS", phase["start"], phase["end"])
+    touched = np.unique(rows["utime"][rows["touching"] > 0])
+    return 100 * len(touched) / ((phase["end"] - phase["start"]) / PERIOD_US)
 
 
 def _change(values: dict, key: str, before: str, after: str) -> float:
@@ -78,4 +88,6 @@ def rows() -> list[Row]:
             "%", "almost no change", 2.0),
         *(Row(f"I1.experts.{words}", f"experts after {words}", "", count)
           for words, count in _PAPER_EXPERTS.items()),
+        *(Row(f"I1.touching.{words}_pct", f"time of babbling with {words} that it touches the body",
+              "%") for words in _PAPER_EXPERTS),
     ]  # fmt: skip

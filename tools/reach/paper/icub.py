@@ -15,7 +15,7 @@ from .rows import Row, of_learner
 NAME = "icub"
 EXPERIMENTS = ("I1", "I2")
 TOOLS = {"none": 0, "stick": 1, "L": 2}  # the simulator's numbers
-CHANNELS = "REACH_SAMPLE|REACH_STATUS|REACH_REQUEST|SIM_REQUEST|SIM_TRUTH"
+CHANNELS = "REACH_SAMPLE|REACH_STATUS|REACH_REQUEST|SIM_REQUEST|SIM_TRUTH|SIM_CONTACTS"
 TICK = 0.02  # s, a sample each while babbling
 PACE = 10  # times as fast as with eyes, about
 MODEL = 1  # number of the model that is put aside
