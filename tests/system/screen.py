@@ -22,7 +22,7 @@ class Screen:
         number, told = os.pipe()
         self._server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(told), "-screen", "0", f"{width}x{height}x24",
-             "-nolisten", "tcp", "-fbdir", self._folder.name],
+             "-nolisten", "tcp", "-nocursor", "-fbdir", self._folder.name],
             pass_fds=[told], stderr=subprocess.DEVNULL,
         )  # fmt: skip
         os.close(told)

@@ -23,6 +23,9 @@ SPY = programs.BINARIES / "reach-spy"
 SAID = [
     ("END_EFFECTOR", types.end_effector_t, 10),
     ("JOINT_STATE", bot_core.joint_state_t, 20),
+    ("LEARNER_PREDICTION", types.learner_prediction_t, 5),
+    ("LEARNER_REPLY", types.learner_reply_t, 5),
+    ("LEARNER_REQUEST", types.learner_request_t, 5),
     ("MARKER", types.marker_t, 5),
     ("REACH_HELLO", types.hello_t, 5),
     ("REACH_REQUEST", types.request_t, 10),
@@ -31,6 +34,7 @@ SAID = [
     ("REACH_TRACE", types.trace_t, 20),
     ("ROBOT_COMMAND", types.robot_command_t, 20),
     ("ROBOT_STATE", types.robot_state_t, 20),
+    ("SIM_CONTACTS", types.sim_contacts_t, 10),
     ("SIM_REQUEST", types.sim_request_t, 5),
     ("SIM_TRUTH", types.sim_truth_t, 10),
     ("STEREO_IMAGES", bot_core.images_t, 10),
