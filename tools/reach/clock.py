@@ -11,20 +11,27 @@ from .messages import reach
 
 START_UTIME = 1_000_000  # where simulated time begins; us
 PERIOD_US = 20_000
+PIECE_US = 25 * PERIOD_US  # what is said meanwhile fits into a socket, with room to spare
 SILENCE_SECONDS = 30.0
 
 
 class HeldClock:
-    """Simulated time that passes only in advance()."""
+    """Simulated time that passes only in advance(); with `recorded`, only as fast as the recorder
+    writes down what is said, however slow that is."""
 
-    def __init__(self, bus: Bus):
+    def __init__(self, bus: Bus, recorded: bool = False):
         self._bus = bus
+        self._recorded = recorded
         self.now = START_UTIME
 
     def advance(self, seconds: float) -> None:
         """Lets so much robot time pass, on the grid of control periods."""
-        self.now += round(seconds * 1e6 / PERIOD_US) * PERIOD_US
-        self._bus.run_until(self.now)
+        end = self.now + round(seconds * 1e6 / PERIOD_US) * PERIOD_US
+        while self.now < end:
+            self.now = min(self.now + PIECE_US, end)
+            self._bus.run_until(self.now)
+            if self._recorded:
+                self._bus.wait_for_role(reach.hello_t.RECORDER, "the recorder")
 
     def ask_daemon(self, request: reach.request_t) -> int:
         """Returns the request_result; the answer takes a tick or, for files, some."""

@@ -59,8 +59,8 @@ def start(
 
 def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian") -> None:
     """Until the log is being written and the programs have answered on the bus."""
-    bus.wait((out / "run.lcmlog").exists, "the recorder", lambda: None)
     hello = reach.hello_t
+    bus.wait_for_role(hello.RECORDER, "the recorder")
     bus.wait_for_role(hello.DAEMON, "reachd")
     if (ROOT / f"etc/vision-{robot}.yaml").exists():
         bus.wait_for_role(hello.VISION, "vision")

@@ -2,6 +2,8 @@
 
 Stands in for lcm-logger, which keeps at most 30 messages waiting and loses the rest without a word
 when it does not run for some 30 ms; a log with gaps would make a summary depend on the machine.
+It answers on REACH_HELLO after what was said before the question is written: who can make the
+robot wait for that loses nothing, however seldom the recorder runs.
 """
 
 import signal
@@ -10,6 +12,7 @@ import time
 import lcm
 
 from .command_line import Parser
+from .messages import reach
 
 ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
 QUEUE = 100_000  # messages that may wait; a full queue drops the newest
@@ -21,11 +24,19 @@ class Recorder:
         self._lcm = lcm.LCM(url)
         self._stop = False
         self._lcm.subscribe(channels, self._write).set_queue_capacity(QUEUE)
+        self._lcm.subscribe("REACH_HELLO", self._answer).set_queue_capacity(QUEUE)
         # Last: that the file exists says to others that nothing will be missed from now on.
         self._log = lcm.EventLog(path, "w", overwrite=True)
 
     def _write(self, channel: str, data: bytes) -> None:
         self._log.write_event(int(time.time() * 1e6), channel, data)
+
+    def _answer(self, channel: str, data: bytes) -> None:
+        """Messages are handled in the order in which they came."""
+        hello = reach.hello_t.decode(data)
+        if hello.role == hello.RECORDER and not hello.answer:
+            hello.answer = 1
+            self._lcm.publish(channel, hello.encode())
 
     def stop(self, *_) -> None:
         self._stop = True

@@ -40,6 +40,6 @@ def session(out: Path, stop: Stop, **options) -> Iterator[tuple[Bus, HeldClock |
         programs.start(processes, out, **options)
         bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
         programs.wait_until_ready(bus, out, options.get("robot", "kobian"))
-        clock = RealClock(bus) if options.get("realtime") else HeldClock(bus)
+        clock = RealClock(bus) if options.get("realtime") else HeldClock(bus, recorded=True)
         clock.advance(SETTLE_SECONDS)
         yield bus, clock

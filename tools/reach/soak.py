@@ -75,7 +75,7 @@ class RestlessClock(HeldClock):
     """A held clock under which programs die now and then."""
 
     def __init__(self, bus: Bus, strike: Callable[[float], None]):
-        super().__init__(bus)
+        super().__init__(bus, recorded=True)
         self.robot_seconds = 0.0
         self._strike = strike
 

@@ -18,7 +18,8 @@ import balanced
 import synthetic
 from reach import metrics
 from reach.paper import __main__ as paper
-from reach.paper import k1, kobian, packed, plan, report, track
+from reach.paper import k1, kobian, packed, perform, plan, report, track
+from reach.record import Record
 
 PHASES = ("learn_hand", "test_hand_500", "learn_tool", "test_tool_1000", "test_hand_1000",
           "learn_again", "test_hand_1300", "frozen_hand", "coordinate_hand", "star_hand",
@@ -116,7 +117,9 @@ class Report(unittest.TestCase):
 
     def test_every_row_is_filled(self):
         self.assertEqual([i for i, row in self.rows.items() if row["n"] != 1], [])
-        self.assertEqual(len(self.rows), len(kobian.rows(("imle",))))
+        lost = [name for name in self.rows if name.endswith(".lost_ticks")]
+        self.assertEqual(lost, ["K1.lost_ticks", "K2.lost_ticks", "K3.lost_ticks", "K4.lost_ticks"])
+        self.assertEqual(len(self.rows), len(kobian.rows(("imle",))) + len(lost))
 
     def test_numbers_are_those_that_were_put_in(self):
         pct = 100 * 0.5 / np.degrees(0.11)
@@ -149,6 +152,19 @@ class Report(unittest.TestCase):
 
     def test_rows_that_are_not_met_are_named(self):
         self.assertIn("not met  K2.hand.median_px: 3 px, wanted 1.5", self.said)
+
+    def test_a_log_with_gaps_is_named_everywhere(self):
+        self.assertEqual((self.rows["K1.lost_ticks"]["mean"], self.rows["K1.lost_ticks"]["met"]),
+                         (0, True))  # fmt: skip
+        self.assertNotIn("lacks", self.said)
+        with mock.patch.object(Record, "lost", lambda _: 7), \
+             mock.patch.object(perform, "_read", lambda _: None), \
+             mock.patch.object(perform, "write_json") as written:  # fmt: skip
+            self.assertIn("warning  kobian-imle-1: its log lacks 7 control steps", self.call())
+        self.assertIn("log lacks 7 control steps", (self.out / "report.html").read_text())
+        table = next(call.args[1] for call in written.mock_calls if isinstance(call.args[1], list))
+        row = next(row for row in table if row["id"] == "K3.lost_ticks")
+        self.assertEqual((row["mean"], row["met"]), (7, False))
 
     def test_it_is_not_measured_again(self):
         path = self.folder / "summary.json"

@@ -79,17 +79,31 @@ def do_missing(options: argparse.Namespace, runs: list[Run]) -> None:
         perform.perform(run, folder_of(options, run), present, progress, stop)
 
 
+def _lost(group, learners: tuple[str, ...]) -> list[rows.Row]:
+    lost = [rows.lost(name) for name in group.EXPERIMENTS]
+    return [row for name in learners for row in rows.of_learner(lost, name)]
+
+
+def _gaps(measured: dict[str, dict]) -> list[str]:
+    return [f"{name}: its log lacks {lost} control steps: its numbers may be wrong"
+            for name, run in measured.items() if (lost := run["wall"]["log_lost"])]  # fmt: skip
+
+
 def conclude(options: argparse.Namespace, runs: list[Run]) -> None:
     """Summaries of the complete runs, the table, the report."""
     present = version()
     complete = [run for run in runs if is_complete(folder_of(options, run), run.inputs(present),
                                                    options.any_version)]  # fmt: skip
     measured = {run.name: perform.measure(run, folder_of(options, run)) for run in complete}
-    asked = [row for group in GROUPS for row in group.rows(tuple(options.learner))
+    learners = tuple(options.learner)
+    asked = [row for group in GROUPS for row in (*group.rows(learners), *_lost(group, learners))
              if row.experiment in options.only]  # fmt: skip
     table = rows.aggregate(asked, measured.values())
     perform.write_json(options.out / "summary.json", table)
-    report.write(options.out, table, complete, options)
+    gaps = _gaps(measured)
+    report.write(options.out, table, complete, gaps, options)
+    for gap in gaps:
+        print(f"warning  {gap}")
     met = [row["met"] for row in table if row["met"] is not None]
     print(f"report   {options.out / 'report.html'}, the same for print: report.pdf")
     print(f"summary  {options.out / 'summary.json'}: {len(table)} rows; of {len(met)} with an aim"

@@ -12,7 +12,7 @@ from ..experiment import Experiment
 from ..progress import Progress
 from ..record import read_log
 from ..session import Stop, session
-from . import packed
+from . import packed, rows
 from .plan import Run, described, digest
 
 _HERE = Path(__file__).parent
@@ -49,6 +49,7 @@ def measure(run: Run, folder: Path) -> dict:
     with packed.unpacked(folder) as path:
         record = read_log(path)
     numbers = run.group.analyse(record, description, folder / "series")
+    numbers |= {rows.lost(name).id: record.lost() for name in run.group.EXPERIMENTS}
     result = summary.rounded({
         "learner": run.learner, "seed": run.seed, "version": description["inputs"]["version"],
         "metrics": {key: float(np.float64(value)) for key, value in numbers.items()},

@@ -19,10 +19,12 @@ and reaches neither daemon nor vision. docs/paper.md says how each number is mea
 _HEADS = ("", "paper", "ours", "aim", "")
 
 
-def write(out: Path, table: list[dict], runs: list[Run], options: argparse.Namespace) -> None:
+def write(out: Path, table: list[dict], runs: list[Run], warnings: list[str],
+          options: argparse.Namespace) -> None:  # fmt: skip
     """From the complete runs; a figure whose runs are missing is named as missing."""
     drawn, missing = _draw(out, runs, options)
     parts = [_INTRO, _runs(runs, options)]
+    parts += [f"<p><b>{html.escape(warning)}.</b></p>" for warning in warnings]
     if missing:
         parts.append(f"<p>Not there yet: figures {html.escape(', '.join(missing))}.</p>")
     title = "The paper's experiments, redrawn"

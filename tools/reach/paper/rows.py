@@ -38,6 +38,11 @@ class Row:
         return bool(mean >= self.bar if self.at_least else mean <= self.bar)
 
 
+def lost(experiment: str) -> Row:
+    """Nothing that is measured may rest on a log with gaps."""
+    return Row(f"{experiment}.lost_ticks", "control steps that the log lacks", "", bar=0)
+
+
 def of_learner(rows: Iterable[Row], learner: str, always: bool = False) -> list[Row]:
     """The same numbers of another learner: K1.s1.yaw_pct becomes K1.lwpr.s1.yaw_pct, with nothing
     asked. With `always`, imle is named too, and keeps what is asked."""
