@@ -152,6 +152,45 @@ START_TEST(it_goes_on_with_a_tool)
 }
 END_TEST
 
+/* Commands of the first ticks, and much later, of a robot that has learned before but begins to
+ * explore anew; `gain` draws the joints that a goal leaves free to its posture. */
+static void commands(double gain, double first[3][MAX_JOINTS], double later[MAX_JOINTS])
+{
+    reach_request_t again = {.kind = REACH_REQUEST_T_EXPLORE, .count = 500, .seed = 4};
+
+    begin("icub.yaml", 0.0005);
+    explore(800, 3);
+    config.explore_secondary_gain = gain;
+    again.seq = ++request_seq;
+    inputs.request[0] = again;
+    inputs.n_requests = 1;
+    for (int i = 0; i < 100; i++) {
+        step();
+        memcpy(i < 3 ? first[i] : later, outputs.command.velocity, sizeof first[0]);
+    }
+    arena_destroy(arena);
+}
+
+/* Until a movement has shown that the model is right, goals draw no joint to a posture: that would
+ * be babbling. Then they do. */
+START_TEST(free_joints_are_drawn_to_postures_only_where_it_knows)
+{
+    double first[2][3][MAX_JOINTS], later[2][MAX_JOINTS], moved = 0, apart = 0;
+
+    commands(0, first[0], later[0]);
+    commands(1, first[1], later[1]);
+    for (int i = 0; i < config_arm_joints(&config); i++) {
+        for (int k = 0; k < 3; k++) {
+            ck_assert_double_eq(first[0][k][i], first[1][k][i]);
+            moved += fabs(first[0][k][i]);
+        }
+        apart += fabs(later[0][i] - later[1][i]);
+    }
+    ck_assert_double_gt(moved, 0);
+    ck_assert_double_gt(apart, 0.05);
+}
+END_TEST
+
 START_TEST(it_reaches_in_the_image_from_nothing)
 {
     double share;
@@ -168,7 +207,8 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {it_reaches_in_metres_from_nothing,
-                                  it_reaches_in_the_image_from_nothing, it_goes_on_with_a_tool};
+                                  it_reaches_in_the_image_from_nothing, it_goes_on_with_a_tool,
+                                  free_joints_are_drawn_to_postures_only_where_it_knows};
 
     return SUITE_RUN("explore", tests);
 }
