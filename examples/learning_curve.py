@@ -27,15 +27,16 @@ distances = np.linalg.norm(samples["values"][:, :, :n_outputs] - measured[:, Non
 offered = np.arange(distances.shape[1]) < np.maximum(samples["solutions"], 1)[:, None]
 best = np.where(offered, distances, np.inf).min(axis=1)
 
-# %% Means over a window that slides: single samples jump.
+# %% Single samples as dots, and means over a window that slides.
 window = max(1, min(20, len(samples) // 4))
 smooth = np.ones(window) / window
 curves = {"the solution in use": acted_on, "the best of all": best}
 figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
+axes.plot(acted_on, ".", color="grey", markersize=2, alpha=0.4, label="each sample")
 for name, errors in curves.items():
     axes.plot(np.convolve(errors, smooth, "valid"), label=name)
     print(f"{name}: {errors[:window].mean():.3g} at first, {errors[-window:].mean():.3g} at last")
-axes.set(xlabel="sample", ylabel="error (head angles [rad], disparity [px])", yscale="log")
+axes.set(xlabel="sample", ylabel="error in task space", yscale="log")
 axes.legend()
 picture = log.with_name("learning_curve.png")
 figure.savefig(picture, dpi=120)

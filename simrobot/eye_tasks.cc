@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "common/bus.h"
+#include "simrobot/bystander.h"
 #include "simrobot/image_message.h"
 #include "simrobot/renderer.h"
 #include "simrobot/sensor.h"
@@ -73,7 +74,10 @@ bool eye_task_snapshot(const Config &config, const Simulation &simulation, uint6
 
     if (!renderer)
         return false;
-    renderer->draw(simulation.snapshot(1), &pixels);
+    Snapshot snapshot = simulation.snapshot(1);
+    if (!simulation.rig().has_eyes)
+        bystander_look_on(config.height / (2 * config.focal_length), &snapshot);
+    renderer->draw(snapshot, &pixels);
     Sensor(config.sensor_noise, seed).expose(1, &pixels);
     if (write_ppm(path, 2 * config.width, config.height, pixels))
         return true;

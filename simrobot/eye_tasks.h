@@ -7,7 +7,8 @@
 namespace sim
 {
 
-/* Writes what both eyes see now, side by side, as a PPM picture.
+/* Writes what both eyes see now, side by side, as a PPM picture; of a robot without eyes, how it
+ * looks to somebody beside it.
  *   returns false with one line in `error`. */
 bool eye_task_snapshot(const Config &config, const Simulation &simulation, uint64_t seed,
                        const std::string &path, std::string *error);

@@ -112,7 +112,7 @@ bool start(const sim::CommandLine &line, std::string *error)
         *error = line.config + ": there is no tool " + std::to_string(line.tool);
         return false;
     }
-    if (!rig.has_eyes && (line.bench_eyes || !line.snapshot.empty())) {
+    if (!rig.has_eyes && line.bench_eyes) {
         *error = line.config + ": this robot has no eyes";
         return false;
     }

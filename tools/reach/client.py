@@ -27,9 +27,9 @@ class Reach:
         status = robot.reach(-50, 20, 3)   # px, px, px; or x, y, z in metres
         print(status.error)
 
-    Calls that start a behaviour return when it has ended, with the daemon's last status of it; with
-    wait=False as soon as it was accepted. RefusedError says why something was not done,
-    NoAnswerError that nobody is there.
+    Calls that start a behaviour return when it has ended, with the daemon's status and the last
+    error of the behaviour; with wait=False as soon as it was accepted. RefusedError says why
+    something was not done, NoAnswerError that nobody is there.
     """
 
     def __init__(self, url: str = DEFAULT_URL, timeout: float = 5.0):
@@ -94,13 +94,14 @@ class Reach:
         status = self._ask(kind, **fields)
         if not wait:
             return status
-        number = status.request_seq
+        number, at_work = status.request_seq, status
         while status.behaviour != status.NONE:
-            status = self.status
+            at_work, status = status, self.status
             if status.request_seq != number:
                 raise RefusedError("another request has replaced this one")
             if status.state == status.FAULT:
                 raise RefusedError("reachd is in its fault state; reset_fault() leaves it")
+        status.error = at_work.error  # the daemon's is 0 again: it has no target any more
         return status
 
     def _ask(self, kind: str, **fields):

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+static const int64_t resend_us = 500000;
+
 struct client {
     lcm_t *lcm;
     bool has_status;
@@ -100,21 +102,30 @@ static int64_t fresh_seq(void)
     return bus_utime();
 }
 
+static bool answers(const reach_status_t *status, const reach_request_t *request)
+{
+    return status && status->request_seq == request->seq &&
+           status->request_result != REACH_STATUS_T_PENDING;
+}
+
+/* Sent again now and then, which changes nothing: the daemon may just be starting. */
 int client_ask_daemon(struct client *client, reach_request_t *request, double timeout, char *error,
                       size_t error_size)
 {
-    int64_t deadline = deadline_after(timeout);
-    const reach_status_t *status;
+    int64_t now = bus_monotonic_us(), deadline = deadline_after(timeout), due = now;
+    const reach_status_t *status = NULL;
 
     request->utime = bus_utime();
     request->seq = fresh_seq();
-    reach_request_t_publish(client->lcm, "REACH_REQUEST", request);
-    do {
-        status = client_status(client, (double)(deadline - bus_monotonic_us()) * 1e-6);
-        if (!status)
+    for (; !answers(status, request); now = bus_monotonic_us()) {
+        if (now >= deadline)
             return no_daemon(timeout, error, error_size);
-    } while (status->request_seq != request->seq ||
-             status->request_result == REACH_STATUS_T_PENDING);
+        if (now >= due) {
+            reach_request_t_publish(client->lcm, "REACH_REQUEST", request);
+            due = now + resend_us;
+        }
+        status = client_status(client, (double)((due < deadline ? due : deadline) - now) * 1e-6);
+    }
     if (status->request_result == REACH_STATUS_T_ACCEPTED)
         return 0;
     snprintf(error, error_size, "reachd: %s", status_result_word(status->request_result));
@@ -148,6 +159,8 @@ int client_ask_simulator(struct client *client, reach_sim_request_t *request, do
 int client_follow(struct client *client, const reach_request_t *request, double timeout,
                   char *error, size_t error_size)
 {
+    reach_status_t at_work = client->status;
+
     for (;;) {
         const reach_status_t *status = client_status(client, timeout);
         if (!status)
@@ -160,8 +173,11 @@ int client_follow(struct client *client, const reach_request_t *request, double 
             snprintf(error, error_size, "reachd is in its fault state; reachctl reset-fault");
             return -1;
         }
-        show_progress(status, status->behaviour == REACH_STATUS_T_NONE);
-        if (status->behaviour == REACH_STATUS_T_NONE)
+        if (status->behaviour == REACH_STATUS_T_NONE) {
+            show_end(&at_work, status);
             return 0;
+        }
+        show_progress(status);
+        at_work = *status;
     }
 }

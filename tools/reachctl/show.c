@@ -3,6 +3,7 @@
 #include "common/status_words.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <unistd.h>
@@ -173,12 +174,25 @@ void show_json(const reach_status_t *status, FILE *out)
     fputs("}\n", out);
 }
 
-void show_progress(const reach_status_t *status, bool last)
+void show_progress(const reach_status_t *status)
 {
     if (!isatty(STDERR_FILENO))
         return;
-    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f %s\033[K%s",
+    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f %s\033[K",
             show_behaviour(status), show_phase(status), status->progress, status->progress_total,
-            status->skipped, status->experts, show_error(status), show_error_unit(status),
-            last ? "\n" : "");
+            status->skipped, status->experts, show_error(status), show_error_unit(status));
+}
+
+void show_end(const reach_status_t *at_work, const reach_status_t *after)
+{
+    bool has_target = at_work->behaviour == REACH_STATUS_T_REACH ||
+                      at_work->behaviour == REACH_STATUS_T_COORDINATE;
+
+    if (isatty(STDERR_FILENO))
+        fputs("\r\033[K", stderr);
+    printf("%s: %d of %d, %d given up; %d experts", show_behaviour(at_work), after->progress,
+           after->progress_total, after->skipped, after->experts);
+    if (has_target)
+        printf("; error %.1f %s", show_error(at_work), show_error_unit(at_work));
+    putchar('\n');
 }

@@ -3,7 +3,6 @@
 #define REACHCTL_SHOW_H
 
 #include <reach_status_t.h>
-#include <stdbool.h>
 #include <stdio.h>
 
 /* For people: a few lines. */
@@ -12,8 +11,12 @@ void show_text(const reach_status_t *status, FILE *out);
 /* For programs: one JSON object with the fields of status_t, states as words. */
 void show_json(const reach_status_t *status, FILE *out);
 
-/* Rewrites one line on stderr, where that is a terminal; `last` ends it. */
-void show_progress(const reach_status_t *status, bool last);
+/* Rewrites one line on stderr, where that is a terminal. */
+void show_progress(const reach_status_t *status);
+
+/* One line on what a behaviour came to, with the error that it ended with: `at_work` is the last
+ * status of the behaviour, `after` one without it. */
+void show_end(const reach_status_t *at_work, const reach_status_t *after);
 
 /* The words for what the daemon does. */
 const char *show_state(const reach_status_t *status);

@@ -30,11 +30,13 @@ class Background(threading.Thread):
 
 
 class Scripted(Background):
-    """Answers requests the way daemon and simulator do; a behaviour takes three statuses."""
+    """Answers requests the way daemon and simulator do; a behaviour takes three statuses. The first
+    `deaf_to` messages with requests are lost."""
 
-    def __init__(self, result: int = reach.status_t.ACCEPTED):
+    def __init__(self, result: int = reach.status_t.ACCEPTED, *, deaf_to: int = 0):
         super().__init__()
         self.result = result
+        self._deaf_to = deaf_to
         self.requests: list[reach.request_t] = []
         self.sim_requests: list[reach.sim_request_t] = []
         self._busy = 0
@@ -43,8 +45,12 @@ class Scripted(Background):
         self._lcm.subscribe("SIM_REQUEST", self._on_sim_request)
 
     def _on_request(self, _, data):
-        self.requests.append(reach.request_t.decode(data))
-        self._busy = 3
+        request = reach.request_t.decode(data)
+        if self._deaf_to > 0:
+            self._deaf_to -= 1
+        elif not self.requests or self.requests[-1].seq != request.seq:
+            self.requests.append(request)
+            self._busy = 3
 
     def _on_sim_request(self, _, data):
         self.sim_requests.append(reach.sim_request_t.decode(data))
@@ -66,7 +72,8 @@ class Scripted(Background):
         if self.requests:
             status.request_seq = self.requests[-1].seq
         self._busy = max(0, self._busy - 1)
-        status.behaviour = reach.status_t.REACH if self._busy else reach.status_t.NONE
+        if self._busy:
+            status.behaviour, status.error = reach.status_t.REACH, 1.25
         self._lcm.publish("REACH_STATUS", status.encode())
 
 

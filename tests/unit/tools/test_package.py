@@ -24,7 +24,7 @@ class Client(unittest.TestCase):
             self.assertEqual(robot.status.experts, 7)
             done = robot.babble(20, seed=9, learn=False)
             self.assertEqual(done.behaviour, done.NONE)
-            robot.reach(-50, 10, 2.5)
+            self.assertEqual(robot.reach(-50, 10, 2.5).error, 1.25)
             robot.coordinate([(1, 2, 3), (4, 5, 6)], period=1.0)
             robot.save(3)
             robot.stop()

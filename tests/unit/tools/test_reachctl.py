@@ -81,8 +81,16 @@ class Reachctl(unittest.TestCase):
     def test_waiting_ends_with_the_behaviour(self):
         with Scripted():
             start = time.monotonic()
-            self.assertEqual(reachctl("star", "--wait").returncode, 0)
+            result = reachctl("star", "--wait")
+        self.assertEqual(result.returncode, 0)
         self.assertLess(time.monotonic() - start, 5)
+        # What it came to: the daemon's own error is 0 again when there is no target any more.
+        self.assertEqual(result.stdout, "reach: 0 of 0, 0 given up; 7 experts; error 1.2 px\n")
+
+    def test_a_lost_request_is_sent_again(self):
+        with Scripted(deaf_to=1) as daemon:
+            self.assertEqual(reachctl("babble", "5").returncode, 0)
+        self.assertEqual(len(daemon.requests), 1)
 
     def test_targets_from_a_file(self):
         with tempfile.TemporaryDirectory() as folder, Scripted() as daemon:
