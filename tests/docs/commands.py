@@ -14,7 +14,16 @@ lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat pip pkg-config sle
 systemd-analyze wait for done if fi
 """.split()  # noqa: SIM905, a list of words
 # Words before a command, with how many words of their own follow each.
-WRAPPERS = {"do": 0, "then": 0, "sudo": 0, "time": 0, "exec": 0, "tools/netns.sh": 0, "nsenter": 3}
+WRAPPERS = {
+    "do": 0,
+    "then": 0,
+    "sudo": 0,
+    "time": 0,
+    "exec": 0,
+    "tools/netns.sh": 0,
+    "env": 0,
+    "nsenter": 3,
+}
 PYTHON = (".venv/bin/python", "python", "python3")
 # Of the running shell, not of a program.
 _ASSIGNMENT = re.compile(r"[A-Za-z_]\w*=")
