@@ -73,7 +73,8 @@ class Scripted(Background):
             status.request_seq = self.requests[-1].seq
         self._busy = max(0, self._busy - 1)
         if self._busy:
-            status.behaviour, status.error = reach.status_t.REACH, 1.25
+            status.behaviour = reach.status_t.REACH
+            status.error = 1.25 if self._busy == 1 else 9.0
         self._lcm.publish("REACH_STATUS", status.encode())
 
 
