@@ -83,7 +83,8 @@ int options_load_as(const struct option_row *table, void *target, const char *co
  * rows are read from `preset`, which may be NULL for a table without them. */
 void options_print(const struct option_row *table, const void *preset, FILE *out);
 
-/* The value in `target` as YAML would hold it; a list of none is the empty text. */
+/* The value in `target` as YAML would hold it, to the last bit; a list of none is the empty text.
+ */
 enum { OPTION_TEXT_SIZE = 512 };
 void option_text(const struct option_row *row, const void *target, char text[OPTION_TEXT_SIZE]);
 

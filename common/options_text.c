@@ -1,8 +1,35 @@
 /* Options as text: their values, and the reference that --help-options prints. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/options.h"
+
+/* Whether the text gives the value again, to the last bit. */
+static bool gives(const char *text, double factor, double value)
+{
+    return strtod(text, NULL) * factor == value;
+}
+
+/* The shortest of a few texts that is the value, or what is nearest to it. */
+static void number_text(double value, double factor, char text[40])
+{
+    static const int digits[] = {12, 15, 17};
+    double number = value / factor;
+
+    for (size_t i = 0; i < sizeof digits / sizeof digits[0]; i++) {
+        snprintf(text, 40, "%.*g", digits[i], number);
+        if (gives(text, factor, value))
+            return;
+    }
+    /* The division was rounded; the number that people wrote is beside it. */
+    for (int side = -1; side <= 1; side += 2) {
+        snprintf(text, 40, "%.17g", nextafter(number, side < 0 ? -INFINITY : INFINITY));
+        if (gives(text, factor, value))
+            return;
+    }
+    snprintf(text, 40, "%.17g", number);
+}
 
 /* Appends the number as people write it, between two marks. */
 static void append(const struct option_row *row, const char *before, double value,
@@ -10,11 +37,14 @@ static void append(const struct option_row *row, const char *before, double valu
 {
     size_t used = strlen(text);
     size_t room = OPTION_TEXT_SIZE - used;
+    char number[40];
 
     if (isinf(value))
         snprintf(text + used, room, "%s%s.inf%s", before, value > 0 ? "" : "-", after);
-    else
-        snprintf(text + used, room, "%s%.12g%s", before, value / option_unit_factor(row), after);
+    else {
+        number_text(value, option_unit_factor(row), number);
+        snprintf(text + used, room, "%s%s%s", before, number, after);
+    }
 }
 
 static void list_text(const struct option_row *row, const struct option_list *list,

@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "config_check.h"
+#include "config_text.h"
 #include "daemon/learner_rows.h"
 #include "space.h"
 
@@ -93,9 +94,9 @@ static const struct option_row table[] = {
     NUMBER("fixation.timeout", fixation_timeout, "s", "8", 0.1, 600,
            "time for fixation after which a configuration is given up"),
 
-    LIST("babble.min", babble_min, "deg", "[]", -360, 360,
+    LIST("babble.min", babble_min_given, "deg", "[]", -360, 360,
          "least random reference; without it the arm's range less motion.margin"),
-    LIST("babble.max", babble_max, "deg", "[]", -360, 360, "greatest, likewise"),
+    LIST("babble.max", babble_max_given, "deg", "[]", -360, 360, "greatest, likewise"),
     NUMBER("babble.gain", babble_gain, "1/s", "4", 0.01, 50, "of the joint position control"),
     NUMBER("babble.tolerance", babble_tolerance, "deg", "0.3", 0.001, 20,
            "distance at which a reference counts as reached"),
@@ -225,6 +226,8 @@ static void set_cartesian(struct config *config)
 /* Nobody has said which part of the range is of use: all of it, and babbling finds out. */
 static void set_babble_range(struct config *config)
 {
+    config->babble_min = config->babble_min_given;
+    config->babble_max = config->babble_max_given;
     if (config->babble_min.n > 0 || config->babble_max.n > 0)
         return;
     config->babble_min = config->arm_min;
@@ -243,6 +246,19 @@ static void set_space(struct config *config)
         set_visual(config);
 }
 
+static int set_checksum(struct config *config, char *error, size_t error_size)
+{
+    char text[CONFIG_TEXT_SIZE];
+
+    if (config_text(config, text) < 0) {
+        snprintf(error, error_size, "the configuration as text has more than %d bytes",
+                 CONFIG_TEXT_SIZE - 1);
+        return -1;
+    }
+    config->checksum = config_text_checksum(text);
+    return 0;
+}
+
 int config_load(struct config *config, const char *const *paths, int n_paths,
                 const char *const *overrides, int n_overrides, char *error, size_t error_size)
 {
@@ -257,7 +273,7 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
         snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
         return -1;
     }
-    return 0;
+    return set_checksum(config, error, error_size);
 }
 
 struct joint_limits config_joint_limits(const struct config *config, int joint)

@@ -39,7 +39,7 @@ struct config {
     int fixation_frames;
     double fixation_lost, fixation_timeout; /* s */
 
-    struct option_list babble_min, babble_max; /* rad */
+    struct option_list babble_min_given, babble_max_given; /* rad, may be empty */
     double babble_gain, babble_tolerance, babble_timeout;
 
     double explore_noise, explore_speed, explore_widen, explore_patience;
@@ -67,7 +67,10 @@ struct config {
     int model_snapshot, model_keep;
     double model_sync; /* s */
 
-    struct space space; /* the rows above that depend on task.space, as it wants them */
+    /* What follows from the rows above. */
+    struct option_list babble_min, babble_max; /* rad */
+    struct space space; /* the rows that depend on task.space, as it wants them */
+    uint32_t checksum;  /* of all rows as text (config_text.h) */
 };
 
 /* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks

@@ -2,13 +2,13 @@
 
 #include "common/bus.h"
 #include "common/log.h"
-#include "observation.h"
+#include "config_text.h"
+#include "incoming.h"
+#include "outgoing.h"
 #include "realtime.h"
 
 #include <errno.h>
 #include <pthread.h>
-#include <reach_end_effector_t.h>
-#include <reach_marker_t.h>
 #include <semaphore.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -23,18 +23,6 @@
 
 static const int poll_ms = 100; /* how soon the receiving thread sees that it is to end */
 
-enum outgoing_kind { OUTGOING_COMMAND, OUTGOING_SAMPLE, OUTGOING_STATUS, OUTGOING_TRACE };
-
-struct outgoing {
-    enum outgoing_kind kind;
-    union {
-        reach_robot_command_t command;
-        reach_sample_t sample;
-        reach_status_t status;
-        reach_trace_t trace;
-    };
-};
-
 struct daemon_bus {
     lcm_t *lcm;
     struct mailbox *states, *observations, *requests, *outgoing, *reports;
@@ -43,8 +31,13 @@ struct daemon_bus {
     _Atomic bool ending;
     _Atomic bool emergency;
     _Atomic int64_t malformed;
-    struct outgoing sending; /* the sending thread's */
-    struct outgoing filling; /* the loop thread's */
+    enum space_kind space;
+    struct outgoing_messages out; /* the sending thread's */
+    struct outgoing sending;      /* likewise */
+    struct outgoing filling;      /* the loop thread's */
+    reach_config_t config;        /* the sending thread's while it waits, else the main thread's */
+    int64_t configs;              /* the main thread's */
+    _Atomic bool config_waits;
     pthread_t receiver, sender;
 };
 
@@ -53,15 +46,10 @@ size_t daemon_bus_memory(void)
     return arena_footprint(sizeof(struct daemon_bus)) +
            mailbox_memory(sizeof(struct received_state), STATES) +
            mailbox_memory(sizeof(struct observation), OBSERVATIONS) +
-           mailbox_memory(sizeof(reach_request_t), REQUESTS) +
+           mailbox_memory(sizeof(struct received_request), REQUESTS) +
            mailbox_memory(sizeof(struct outgoing), OUTGOING) +
            mailbox_memory(sizeof(reach_status_t), REPORTS);
 }
-
-/* Decodes a whole message of a type of fixed size: anything longer or shorter is refused. */
-#define DECODE(type, message, value)                                                               \
-    (type##_decode((message)->data, 0, (int)(message)->data_size, (value)) ==                      \
-     (int)(message)->data_size)
 
 static void refuse(struct daemon_bus *bus)
 {
@@ -80,74 +68,46 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     struct received_state received = {.received = bus_monotonic_us()};
 
     (void)channel;
-    if (DECODE(reach_robot_state_t, message, &received.state))
+    received.checksum = incoming_checksum(message->data, message->data_size);
+    if (incoming_state(message->data, message->data_size, &received.state))
         deliver(bus, bus->states, &received);
     else
         refuse(bus);
 }
 
-static void on_marker(const lcm_recv_buf_t *message, const char *channel, void *user)
+static void on_observation(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct daemon_bus *bus = user;
-    reach_marker_t marker;
+    struct observation observation;
 
     (void)channel;
-    if (!DECODE(reach_marker_t, message, &marker)) {
+    if (incoming_observation(bus->space, message->data, message->data_size, &observation))
+        deliver(bus, bus->observations, &observation);
+    else
         refuse(bus);
-        return;
-    }
-    deliver(bus, bus->observations,
-            &(struct observation){.utime = marker.utime,
-                                  .seq = marker.seq,
-                                  .seen = marker.seen,
-                                  .value = {marker.u_right, marker.v_right, marker.disparity}});
-}
-
-static void on_effector(const lcm_recv_buf_t *message, const char *channel, void *user)
-{
-    struct daemon_bus *bus = user;
-    reach_end_effector_t effector;
-    struct observation observation = {.seen = 1};
-
-    (void)channel;
-    if (!DECODE(reach_end_effector_t, message, &effector)) {
-        refuse(bus);
-        return;
-    }
-    observation.utime = effector.utime;
-    observation.seq = effector.seq;
-    memcpy(observation.value, effector.position, sizeof observation.value);
-    deliver(bus, bus->observations, &observation);
-}
-
-/* The sense of the task space alone: a robot may have both. */
-static bool subscribe_to_sense(struct daemon_bus *bus, enum space_kind space)
-{
-    if (space == SPACE_CARTESIAN)
-        return lcm_subscribe(bus->lcm, "END_EFFECTOR", on_effector, bus) != NULL;
-    return lcm_subscribe(bus->lcm, "MARKER", on_marker, bus) != NULL;
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct daemon_bus *bus = user;
-    reach_request_t request;
+    struct received_request received = {.checksum =
+                                            incoming_checksum(message->data, message->data_size)};
 
     (void)channel;
-    if (!DECODE(reach_request_t, message, &request)) {
+    if (!incoming_request(message->data, message->data_size, &received.request)) {
         refuse(bus);
         return;
     }
-    if (request.kind == REACH_REQUEST_T_EMERGENCY)
+    if (received.request.kind == REACH_REQUEST_T_EMERGENCY)
         daemon_bus_raise_emergency(bus);
-    deliver(bus, bus->requests, &request);
+    deliver(bus, bus->requests, &received);
 }
 
 static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
 {
     bus->states = mailbox_create(arena, sizeof(struct received_state), STATES);
     bus->observations = mailbox_create(arena, sizeof(struct observation), OBSERVATIONS);
-    bus->requests = mailbox_create(arena, sizeof(reach_request_t), REQUESTS);
+    bus->requests = mailbox_create(arena, sizeof(struct received_request), REQUESTS);
     bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
     bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
     return bus->states && bus->observations && bus->requests && bus->outgoing && bus->reports;
@@ -163,8 +123,11 @@ struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct a
         return NULL;
     }
     bus->lcm = lcm;
+    bus->space = space;
+    outgoing_init(&bus->out, lcm, "");
     if (sem_init(&bus->arrived, 0, 0) || sem_init(&bus->to_send, 0, 0) ||
-        !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) || !subscribe_to_sense(bus, space) ||
+        !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) ||
+        !lcm_subscribe(lcm, incoming_sense(space), on_observation, bus) ||
         !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus)) {
         snprintf(error, error_size, "cannot subscribe to the bus");
         return NULL;
@@ -183,34 +146,28 @@ static void *receive(void *user)
     return NULL;
 }
 
-static void publish(lcm_t *lcm, const struct outgoing *out)
+/* Before a message that was put after it: the first trace of a configuration comes after that. */
+static void send_waiting_config(struct daemon_bus *bus)
 {
-    switch (out->kind) {
-    case OUTGOING_COMMAND:
-        reach_robot_command_t_publish(lcm, "ROBOT_COMMAND", &out->command);
-        break;
-    case OUTGOING_SAMPLE:
-        reach_sample_t_publish(lcm, "REACH_SAMPLE", &out->sample);
-        break;
-    case OUTGOING_STATUS:
-        reach_status_t_publish(lcm, "REACH_STATUS", &out->status);
-        break;
-    case OUTGOING_TRACE:
-        reach_trace_t_publish(lcm, "REACH_TRACE", &out->trace);
-        break;
-    }
+    if (!atomic_load_explicit(&bus->config_waits, memory_order_acquire))
+        return;
+    reach_config_t_publish(bus->lcm, "REACH_CONFIG", &bus->config);
+    atomic_store_explicit(&bus->config_waits, false, memory_order_release);
 }
 
 static void *send(void *user)
 {
     struct daemon_bus *bus = user;
+    bool taken;
 
     pthread_setname_np(pthread_self(), "reachd-send");
     for (;;) {
         while (sem_wait(&bus->to_send) && errno == EINTR)
             ;
-        if (mailbox_take(bus->outgoing, &bus->sending))
-            publish(bus->lcm, &bus->sending);
+        taken = mailbox_take(bus->outgoing, &bus->sending);
+        send_waiting_config(bus);
+        if (taken)
+            outgoing_publish(&bus->out, &bus->sending);
         else if (atomic_load_explicit(&bus->ending, memory_order_acquire))
             return NULL;
     }
@@ -297,6 +254,18 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
     bus->filling.kind = OUTGOING_TRACE;
     bus->filling.trace = *trace;
     hand_over(bus);
+}
+
+void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
+{
+    const struct timespec moment = {.tv_nsec = 1000000};
+
+    while (atomic_load_explicit(&bus->config_waits, memory_order_acquire))
+        nanosleep(&moment, NULL); /* the one before is on its way */
+    config_message(config, &bus->config);
+    bus->config.seq = ++bus->configs;
+    atomic_store_explicit(&bus->config_waits, true, memory_order_release);
+    sem_post(&bus->to_send);
 }
 
 void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command)

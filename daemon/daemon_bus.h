@@ -16,7 +16,13 @@ struct daemon_bus;
 /* A robot state with the monotonic time at which it came, us. */
 struct received_state {
     reach_robot_state_t state;
+    uint32_t checksum;
     int64_t received;
+};
+
+struct received_request {
+    reach_request_t request;
+    uint32_t checksum;
 };
 
 size_t daemon_bus_memory(void);
@@ -36,7 +42,7 @@ void daemon_bus_stop(struct daemon_bus *bus);
 /* What has come, for the loop thread: states oldest first, observations and requests likewise. */
 struct mailbox *daemon_bus_states(struct daemon_bus *bus);       /* struct received_state */
 struct mailbox *daemon_bus_observations(struct daemon_bus *bus); /* struct observation */
-struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* reach_request_t */
+struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct received_request */
 
 /* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);
@@ -47,6 +53,9 @@ void daemon_bus_send_command(struct daemon_bus *bus, const reach_robot_command_t
 void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample);
 void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
                             const reach_trace_t *trace);
+
+/* Main thread: says on the bus what the loop works with, or will after this call. */
+void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
 
 /* For any thread but the loop's: sends a command at once, past the sending thread. */
 void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command);

@@ -8,6 +8,7 @@
 #include <time.h>
 
 static const int period_ms = 20;
+static const int64_t announce_us = 1000000;
 static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
 
 static sigset_t house_signals(void)
@@ -71,8 +72,19 @@ static void tell_service(struct house *house)
 static void read_configuration_again(struct house *house)
 {
     notify_send("RELOADING=1");
-    reload_configuration(house->reload, house->loop);
+    reload_configuration(house->reload, house->bus, house->loop);
     notify_send("READY=1");
+}
+
+/* Again and again, so that a log has it whenever it was begun. */
+static void say_configuration(struct house *house)
+{
+    int64_t now = bus_monotonic_us();
+
+    if (house->announced && now - house->announced < announce_us)
+        return;
+    house->announced = now;
+    daemon_bus_send_config(house->bus, house->reload->accepted);
 }
 
 void house_keep(struct house *house)
@@ -88,6 +100,7 @@ void house_keep(struct house *house)
         if (signal == SIGHUP)
             read_configuration_again(house);
         say_what_is_awaited(house);
+        say_configuration(house);
         tell_service(house);
     }
     service_end();

@@ -20,6 +20,7 @@ struct house {
     int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
     int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
     int64_t said;          /* when the log was last told of it, monotonic us */
+    int64_t announced;     /* when the bus was last told the configuration, monotonic us */
 };
 
 /* Blocks the signals that house_keep receives. To be called before any thread starts. */

@@ -55,10 +55,14 @@ void loop_take_requests(struct loop *loop)
 {
     struct tick_inputs *inputs = &loop->inputs;
 
+    struct received_request received;
+
     inputs->n_requests = 0;
     while (inputs->n_requests < TICK_MAX_REQUESTS &&
-           mailbox_take(daemon_bus_requests(loop->bus), &inputs->request[inputs->n_requests]))
-        inputs->n_requests++;
+           mailbox_take(daemon_bus_requests(loop->bus), &received)) {
+        inputs->request[inputs->n_requests] = received.request;
+        inputs->request_checksum[inputs->n_requests++] = received.checksum;
+    }
 }
 
 void loop_decide(struct loop *loop, int64_t now)
@@ -92,7 +96,8 @@ void loop_report(struct loop *loop, int64_t now)
     status->page_faults = realtime_page_faults() - loop->page_faults;
     status->overruns = loop->overruns;
     status->slips = loop->slips;
-    status->bad_inputs += daemon_bus_refused(loop->bus) + loop->bad_states;
+    loop->outputs.trace.refused = daemon_bus_refused(loop->bus) + loop->bad_states;
+    status->bad_inputs += loop->outputs.trace.refused;
     daemon_bus_send_report(loop->bus, status, &loop->outputs.trace);
     atomic_store_explicit(&loop->state, status->state * 256 + status->fault, memory_order_relaxed);
     atomic_fetch_add_explicit(&loop->ticks, 1, memory_order_relaxed);

@@ -77,6 +77,7 @@ static void step_lockstep(struct loop *loop)
     loop->any_state = true;
     loop->inputs.has_state = true;
     loop->inputs.state = *state;
+    loop->inputs.state_checksum = loop->received.checksum;
     loop->inputs.state_age = 0;
     loop_take_requests(loop);
     loop_decide(loop, state->utime);

@@ -24,7 +24,8 @@ static void take_all(struct loop *loop)
         }
         loop->received = received;
         inputs->has_state = true;
-        inputs->state = loop->received.state;
+        inputs->state = received.state;
+        inputs->state_checksum = received.checksum;
         loop->any_state = true;
     }
     inputs->state_age =

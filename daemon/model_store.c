@@ -49,6 +49,7 @@ struct model_store *model_store_create(const struct model_store_settings *settin
         return NULL;
     }
     store->settings = *settings;
+    store->ready = has_directory(store);
     store->files = settings->files ? settings->files : &files_system;
     store->directory_file = -1;
     store->journal.file = -1;
@@ -91,6 +92,7 @@ static int recover(struct model_store *store, struct recovery *recovery, char *e
         return -1;
     model_capture(&store->model, store->shadow);
     store->shadow_number = store->number = store->model.samples;
+    store->moment.model = recovery->any ? store->model.hash : 0;
     return 0;
 }
 
@@ -107,6 +109,11 @@ static void describe(const struct model_store *store, const struct recovery *rec
                  (unsigned long long)store->model.hash,
                  learner_get_statistics(store->shadow).experts, (long long)recovery->generation,
                  (unsigned long long)recovery->replayed);
+}
+
+void model_store_replay(struct model_store *store, struct model_store_recorded *recorded)
+{
+    store->recorded = recorded;
 }
 
 int model_store_open(struct model_store *store, struct learner *learner, char *error,
@@ -186,8 +193,9 @@ bool model_store_note(struct model_store *store, const double *z, const double *
 
 static bool begin(struct model_store *store, int number)
 {
-    if (!has_directory(store) || model_store_stage(store) != FREE)
+    if (!store->ready)
         return false;
+    store->ready = false;
     store->model_number = number;
     return true;
 }
@@ -209,7 +217,7 @@ bool model_store_begin_load(struct model_store *store, int number)
     return true;
 }
 
-enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
+static enum model_store_result take_result(struct model_store *store, struct learner **learner)
 {
     struct learner *old = *learner;
 
@@ -219,6 +227,7 @@ enum model_store_result model_store_poll(struct model_store *store, struct learn
         store->shadow = old;
         store->epoch++;
         store->number = store->model.samples;
+        store->moment.model = store->model.hash;
         model_store_set_stage(store, SWAPPED);
         return MODEL_STORE_DONE;
     case DONE:
@@ -230,6 +239,37 @@ enum model_store_result model_store_poll(struct model_store *store, struct learn
     default:
         return MODEL_STORE_NOTHING;
     }
+}
+
+static void take_recorded(struct model_store *store, struct learner **learner)
+{
+    struct model_store_recorded *recorded = store->recorded;
+    struct learner *old = *learner;
+
+    store->moment = recorded->moment;
+    store->ready = recorded->moment.ready;
+    if (!recorded->take)
+        return;
+    *learner = recorded->learner;
+    recorded->learner = old;
+    recorded->take = false;
+}
+
+enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
+{
+    if (store->recorded) {
+        take_recorded(store, learner);
+        return store->moment.result;
+    }
+    store->moment.result = take_result(store, learner);
+    store->ready = has_directory(store) && model_store_stage(store) == FREE;
+    store->moment.ready = store->ready;
+    return store->moment.result;
+}
+
+struct model_store_moment model_store_moment(const struct model_store *store)
+{
+    return store->moment;
 }
 
 struct model_store_report model_store_report(const struct model_store *store)

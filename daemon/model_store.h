@@ -55,8 +55,8 @@ bool model_store_note(struct model_store *store, const double *z, const double *
 /* Loop thread: whether model_store_note would return false. */
 bool model_store_full(const struct model_store *store);
 
-/* Loop thread: start saving or loading. Returns false when the store is busy or has no
- * directory. */
+/* Loop thread: start saving or loading. Returns false when the store was busy at the newest poll,
+ * or has no directory. */
 bool model_store_begin_save(struct model_store *store, int number);
 bool model_store_begin_load(struct model_store *store, int number);
 
@@ -64,6 +64,25 @@ bool model_store_begin_load(struct model_store *store, int number);
  * between two ticks. */
 enum model_store_result { MODEL_STORE_NOTHING, MODEL_STORE_DONE, MODEL_STORE_FAILED };
 enum model_store_result model_store_poll(struct model_store *store, struct learner **learner);
+
+/* What the newest poll has seen, for the trace: nothing else that the disk does decides anything.
+ */
+struct model_store_moment {
+    enum model_store_result result;
+    bool ready; /* a save or load could begin then */
+    uint64_t
+        model; /* hash of what the learner was given whole, at start or by a load; 0 = nothing */
+};
+struct model_store_moment model_store_moment(const struct model_store *store);
+
+/* A replay's store has no disk: whoever drives it sets this before each tick. */
+struct model_store_recorded {
+    struct model_store_moment moment;
+    bool take; /* `learner`, which holds a model that was loaded, changes places with the loop's */
+    struct learner *learner;
+};
+/* `recorded` stays the caller's. The store must have no directory. */
+void model_store_replay(struct model_store *store, struct model_store_recorded *recorded);
 
 /* Loop thread, for the status. */
 struct model_store_report {

@@ -30,6 +30,9 @@ struct model_store {
     /* The loop's. */
     int64_t epoch;
     uint64_t number; /* of the newest sample noted */
+    struct model_store_moment moment;
+    bool ready;                            /* a save or load can begin */
+    struct model_store_recorded *recorded; /* of a replay; NULL = this is none */
 
     /* Between both. */
     _Atomic int stage;

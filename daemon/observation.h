@@ -12,6 +12,7 @@ struct observation {
     int64_t seq;   /* of the message */
     int8_t seen;   /* 0: looked for and not found; `value` then means nothing */
     double value[SPACE_DIMENSIONS];
+    uint32_t checksum; /* of the message, as trace_t wants it */
 };
 
 #endif

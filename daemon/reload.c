@@ -69,7 +69,7 @@ static struct config *free_buffer(struct reload *reload, struct loop *loop)
     return &reload->buffer[reload->used == &reload->buffer[0]];
 }
 
-void reload_configuration(struct reload *reload, struct loop *loop)
+void reload_configuration(struct reload *reload, struct daemon_bus *bus, struct loop *loop)
 {
     struct config *taken;
     char error[512];
@@ -87,5 +87,6 @@ void reload_configuration(struct reload *reload, struct loop *loop)
     taken = free_buffer(reload, loop);
     *taken = reload->read;
     reload->accepted = taken;
+    daemon_bus_send_config(bus, taken);
     loop_offer_config(loop, taken);
 }

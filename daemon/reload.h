@@ -27,8 +27,8 @@ struct reload {
 bool reload_allowed(const struct config *from, const struct config *to, int *changes, char *error,
                     size_t error_size);
 
-/* Housekeeping thread: reads all again and offers it to the loop, which takes it before its next
- * tick; or logs why not, and the old one stays. */
-void reload_configuration(struct reload *reload, struct loop *loop);
+/* Housekeeping thread: reads all again, says so on the bus and offers it to the loop, which takes
+ * it before its next tick; or logs why not, and the old one stays. */
+void reload_configuration(struct reload *reload, struct daemon_bus *bus, struct loop *loop);
 
 #endif

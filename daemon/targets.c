@@ -1,6 +1,7 @@
 #include "targets.h"
 
-#include <math.h>
+#include "elementary.h"
+
 #include <reach_status_t.h>
 #include <string.h>
 
@@ -49,7 +50,7 @@ static void prepare(struct behaviour *behaviour, struct control *control)
 
 void targets_slide(double period, double smoothing, const double *target, double *setpoint, int n)
 {
-    double share = smoothing > 0 ? 1 - exp(-period / smoothing) : 1;
+    double share = smoothing > 0 ? 1 - elementary_exp(-period / smoothing) : 1;
 
     for (int i = 0; i < n; i++)
         setpoint[i] += share * (target[i] - setpoint[i]);

@@ -10,6 +10,7 @@
 #include "sight.h"
 #include "supervisor.h"
 #include "tick_private.h"
+#include "trace.h"
 #include "training.h"
 
 #include <math.h>
@@ -73,6 +74,11 @@ struct model_store *tick_model_store(struct tick *tick)
 int tick_open_model(struct tick *tick, char *error, size_t error_size)
 {
     return model_store_open(tick->store, tick->learner, error, error_size);
+}
+
+void tick_take_recorded_model(struct tick *tick)
+{
+    model_store_poll(tick->store, &tick->learner);
 }
 
 bool tick_awaits_store(const struct tick *tick)
@@ -268,7 +274,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
 
     if (inputs->config)
         take_config(tick, inputs->config);
-    tick->seq++;
+    tick->seq += 1 + inputs->unseen;
     tick->learned_now = 0;
     safety_held(&tick->safety, inputs->slipped);
     if (inputs->braked > 0)
@@ -276,6 +282,9 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
     else if (inputs->robot_rests)
         safety_rests(&tick->safety);
     outputs->has_sample = false;
+    trace_inputs(inputs, &outputs->trace);
+    outputs->trace.fresh = !tick->touched;
+    tick->touched = tick->touched || trace_inputs_matter(inputs);
     take_state(tick, inputs);
     take_observations(tick, inputs);
     sense(tick);

@@ -27,16 +27,19 @@ struct tick_inputs {
     const struct config *config; /* works with this one from now on; NULL = with the one it has */
     bool has_state;
     reach_robot_state_t state;
+    uint32_t state_checksum; /* of the message, for the trace */
     double state_age; /* of the newest state ever received, good or bad, s; INFINITY = none yet */
     int n_observations;
     struct observation observation[TICK_MAX_OBSERVATIONS];
     int n_requests;
     reach_request_t request[TICK_MAX_REQUESTS];
+    uint32_t request_checksum[TICK_MAX_REQUESTS];
     bool overrunning; /* the loop was late too often */
     bool emergency;   /* somebody wants the arm stopped at once */
     int braked;       /* braking commands that the watchdog sent since the last tick */
     int64_t slipped;  /* periods that went by without a tick since the last one */
     bool robot_rests; /* no command went out for so long that the robot stopped by itself */
+    int64_t unseen;   /* ticks before this one that a replay lost; their numbers are skipped */
 };
 
 struct tick_outputs {
@@ -45,7 +48,7 @@ struct tick_outputs {
     bool has_sample;
     reach_sample_t sample;
     reach_status_t status; /* fields of time (compute, wake-up, overruns) are the loop's to fill */
-    reach_trace_t trace;
+    reach_trace_t trace;   /* `refused` is the loop's to fill, checksums are the sender's */
 };
 
 struct tick;
@@ -77,6 +80,9 @@ struct model_store *tick_model_store(struct tick *tick);
 
 /* Before the loop starts: goes on from the model on disk. Returns 0, or -1 with one line. */
 int tick_open_model(struct tick *tick, char *error, size_t error_size);
+
+/* The same for a replay: takes what its store has been given (model_store_replay). */
+void tick_take_recorded_model(struct tick *tick);
 
 /* The model.* options, for the store. */
 struct model_store_settings tick_store_settings(const struct config *config);

@@ -31,6 +31,7 @@ struct tick {
 
     enum supervisor_state state;
     bool state_known;
+    bool touched; /* by anything that matters since it began */
     int8_t fault; /* constants of status_t */
     bool reset_requested;
     bool emergency_requested;

@@ -129,9 +129,14 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
 static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
                          reach_trace_t *trace)
 {
-    memset(trace, 0, sizeof *trace);
+    struct model_store_moment moment = model_store_moment(tick->store);
+
     trace->utime = now;
     trace->seq = tick->seq;
+    trace->store_result = (int8_t)moment.result;
+    trace->store_ready = moment.ready;
+    trace->model = (int64_t)moment.model;
+    trace->config = (int32_t)tick->config->checksum;
     trace->state_seq = tick->state_seq_now;
     trace->marker_seq = tick->marker_seq_now;
     trace->request_seq = tick->request_seq_now;

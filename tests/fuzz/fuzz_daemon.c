@@ -54,6 +54,7 @@ static void begin(void)
 static void take(struct daemon_bus *bus, struct tick_inputs *inputs)
 {
     struct received_state received;
+    struct received_request asked;
 
     inputs->has_state = false;
     while (mailbox_take(daemon_bus_states(bus), &received)) {
@@ -66,9 +67,11 @@ static void take(struct daemon_bus *bus, struct tick_inputs *inputs)
         if (!mailbox_take(daemon_bus_observations(bus),
                           &inputs->observation[inputs->n_observations]))
             break;
-    for (inputs->n_requests = 0; inputs->n_requests < TICK_MAX_REQUESTS; inputs->n_requests++)
-        if (!mailbox_take(daemon_bus_requests(bus), &inputs->request[inputs->n_requests]))
+    for (inputs->n_requests = 0; inputs->n_requests < TICK_MAX_REQUESTS; inputs->n_requests++) {
+        if (!mailbox_take(daemon_bus_requests(bus), &asked))
             break;
+        inputs->request[inputs->n_requests] = asked.request;
+    }
     inputs->emergency = daemon_bus_take_emergency(bus);
 }
 

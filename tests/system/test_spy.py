@@ -27,6 +27,7 @@ SAID = [
     ("LEARNER_REPLY", types.learner_reply_t, 5),
     ("LEARNER_REQUEST", types.learner_request_t, 5),
     ("MARKER", types.marker_t, 5),
+    ("REACH_CONFIG", types.config_t, 5),
     ("REACH_HELLO", types.hello_t, 5),
     ("REACH_REQUEST", types.request_t, 10),
     ("REACH_SAMPLE", types.sample_t, 10),

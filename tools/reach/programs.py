@@ -2,6 +2,7 @@
 
 import os
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -53,8 +54,17 @@ def start(
     }  # fmt: skip
     if not eyes.exists():
         del commands["vision"]
+    (out / "run.lcmlog").unlink(missing_ok=True)
     for name, command in commands.items():
         processes.start(name, command)
+        if name == "recorder":  # a log that begins later than the daemon cannot be replayed
+            _wait_for(out / "run.lcmlog", processes)
+
+
+def _wait_for(path: Path, processes: Processes) -> None:
+    while not path.exists():
+        processes.check()
+        time.sleep(0.02)
 
 
 def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian") -> None:

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <math.h>
+#include <reach_config_t.h>
 #include <reach_end_effector_t.h>
 #include <reach_learner_prediction_t.h>
 #include <reach_learner_reply_t.h>
@@ -28,6 +29,7 @@ static const struct {
     {"END_EFFECTOR", __reach_end_effector_t_get_hash},
     {"REACH_STATUS", __reach_status_t_get_hash},
     {"REACH_TRACE", __reach_trace_t_get_hash},
+    {"REACH_CONFIG", __reach_config_t_get_hash},
     {"REACH_SAMPLE", __reach_sample_t_get_hash},
     {"SIM_TRUTH", __reach_sim_truth_t_get_hash},
     {"LEARNER_REPLY", __reach_learner_reply_t_get_hash},

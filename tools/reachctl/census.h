@@ -8,7 +8,7 @@
 #include <netinet/in.h>
 #include <reach_hello_t.h>
 
-enum { CENSUS_CHANNELS = 11, CENSUS_SENDERS = 4, CENSUS_ANSWERS = 8 };
+enum { CENSUS_CHANNELS = 12, CENSUS_SENDERS = 4, CENSUS_ANSWERS = 8 };
 
 struct sender {
     struct in_addr address;

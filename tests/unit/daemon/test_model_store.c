@@ -46,6 +46,8 @@ static enum model_store_result finish(struct store_bench *bench)
         result = model_store_poll(bench->store, &bench->learner);
     }
     store_bench_serve(bench);
+    /* As every tick does: only here the loop sees that the store is ready again. */
+    ck_assert_int_eq(model_store_poll(bench->store, &bench->learner), MODEL_STORE_NOTHING);
     return result;
 }
 
