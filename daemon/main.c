@@ -1,38 +1,26 @@
 /* reachd: options, and the order of start and end. */
 #include "arena.h"
+#include "arguments.h"
 #include "config.h"
 #include "daemon_bus.h"
 #include "house.h"
 #include "keeper.h"
 #include "loop.h"
+#include "loop_replay.h"
 #include "realtime.h"
 #include "tick.h"
 #include "watchdog.h"
 
 #include "common/bus.h"
 #include "common/log.h"
-#include "common/version.h"
 
-#include <getopt.h>
 #include <reach_hello_t.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#define MAX_CONFIGS 8
-#define MAX_OVERRIDES 64
-
 static const int claim_ms = 300; /* time for another daemon to answer */
-
-struct arguments {
-    const char *configs[MAX_CONFIGS];
-    int n_configs;
-    const char *url;
-    const char *overrides[MAX_OVERRIDES];
-    int n_overrides;
-    bool lockstep, no_rt, check_model, verbose;
-};
 
 /* Everything that lives from start to end. */
 struct reachd {
@@ -49,108 +37,10 @@ struct reachd {
     struct keeper keeper;
 };
 
-static const char usage[] =
-    "usage: reachd --config FILE [options]\n"
-    "Learns how the robot's arm moves, with whatever tool it holds, and reaches with it.\n\n"
-    "  -c, --config FILE     YAML configuration, such as etc/kobian.yaml; given again, the\n"
-    "                        later file overrides the earlier one\n"
-    "  -s, --set NAME=VALUE  override one option of it (may be repeated)\n"
-    "  -u, --url URL         LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")\n"
-    "  -l, --lockstep        the simulator's clock, not the real one\n"
-    "      --no-rt           real time without priority and locked memory, for developers\n"
-    "  -v, --verbose         say more\n"
-    "      --check-model     print the samples and the hash of the model in model.directory, or "
-    "what\n"
-    "                        is wrong with it, and change nothing\n"
-    "      --help-options    list every option of the configuration\n"
-    "      --version         print the version\n"
-    "  -h, --help            print this\n\n"
-    "Exit status: 0 ended as asked, 1 could not start or run, 2 wrong usage.\n";
-
-enum { OPTION_NO_RT = 256, OPTION_CHECK_MODEL, OPTION_HELP_OPTIONS, OPTION_VERSION };
-
-static int wrong_usage(const char *what)
-{
-    fprintf(stderr, "reachd: %s; reachd --help tells more\n", what);
-    return 2;
-}
-
-/* Returns -1 to go on, or an exit status. */
-static int take_option(struct arguments *arguments, int option)
-{
-    switch (option) {
-    case 'c':
-        if (arguments->n_configs == MAX_CONFIGS)
-            return wrong_usage("too many --config");
-        arguments->configs[arguments->n_configs++] = optarg;
-        return -1;
-    case 's':
-        if (arguments->n_overrides == MAX_OVERRIDES)
-            return wrong_usage("too many --set");
-        arguments->overrides[arguments->n_overrides++] = optarg;
-        return -1;
-    case 'u':
-        arguments->url = optarg;
-        return -1;
-    case 'l':
-        arguments->lockstep = true;
-        return -1;
-    case 'v':
-        arguments->verbose = true;
-        return -1;
-    case OPTION_NO_RT:
-        arguments->no_rt = true;
-        return -1;
-    case OPTION_CHECK_MODEL:
-        arguments->check_model = true;
-        return -1;
-    case OPTION_HELP_OPTIONS:
-        config_print_options(stdout);
-        return 0;
-    case OPTION_VERSION:
-        printf("reachd %s\n", reach_version);
-        return 0;
-    case 'h':
-        fputs(usage, stdout);
-        return 0;
-    default:
-        return wrong_usage("unknown option or missing value");
-    }
-}
-
-static int parse(struct arguments *arguments, int argc, char **argv)
-{
-    static const struct option words[] = {
-        {"config", required_argument, NULL, 'c'},
-        {"set", required_argument, NULL, 's'},
-        {"url", required_argument, NULL, 'u'},
-        {"lockstep", no_argument, NULL, 'l'},
-        {"no-rt", no_argument, NULL, OPTION_NO_RT},
-        {"check-model", no_argument, NULL, OPTION_CHECK_MODEL},
-        {"verbose", no_argument, NULL, 'v'},
-        {"help-options", no_argument, NULL, OPTION_HELP_OPTIONS},
-        {"version", no_argument, NULL, OPTION_VERSION},
-        {"help", no_argument, NULL, 'h'},
-        {NULL, 0, NULL, 0},
-    };
-    int option;
-
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, "c:s:u:lvh", words, NULL)) != -1) {
-        int status = take_option(arguments, option);
-        if (status >= 0)
-            return status;
-    }
-    if (optind < argc)
-        return wrong_usage("unexpected argument");
-    if (arguments->n_configs == 0)
-        return wrong_usage("--config is missing");
-    return -1;
-}
-
 static bool is_real_time(const struct reachd *reachd)
 {
-    return !reachd->arguments.lockstep && !reachd->arguments.no_rt;
+    return !reachd->arguments.lockstep && !reachd->arguments.no_rt &&
+           !reachd->arguments.replay_clock;
 }
 
 /* LCM starts a thread here, which inherits the priority: messages must not wait in it. */
@@ -319,21 +209,55 @@ static int run(struct reachd *reachd, char *error, size_t error_size)
     return 0;
 }
 
+/* Decisions that were made once, made again. */
+static int replay(struct reachd *reachd, char *error, size_t error_size)
+{
+    const struct arguments *arguments = &reachd->arguments;
+    const struct replay_settings settings = {
+        .config = arguments->n_configs > 0 ? &reachd->config : NULL,
+        .models = arguments->models,
+        .n_models = arguments->n_models,
+        .verify = arguments->verify,
+    };
+
+    if (arguments->replay)
+        return loop_replay_log(arguments->replay, &settings, error, error_size);
+    house_take_signals();
+    if (claim_bus(reachd, error, error_size))
+        return -1;
+    return loop_replay_bus(reachd->lcm, &settings, error, error_size);
+}
+
+static int load_config(struct reachd *reachd, char *error, size_t error_size)
+{
+    const struct arguments *arguments = &reachd->arguments;
+
+    if (arguments->n_configs == 0)
+        return 0; /* a replay has the recorded one */
+    return config_load(&reachd->config, arguments->configs, arguments->n_configs,
+                       arguments->overrides, arguments->n_overrides, error, error_size);
+}
+
+static int work(struct reachd *reachd, char *error, size_t error_size)
+{
+    if (reachd->arguments.replay || reachd->arguments.replay_clock)
+        return replay(reachd, error, error_size);
+    if (check_model_directory(&reachd->config, error, error_size))
+        return -1;
+    return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)
+                                         : run(reachd, error, error_size);
+}
+
 int main(int argc, char **argv)
 {
     static struct reachd reachd;
     char error[512] = "";
-    int status = parse(&reachd.arguments, argc, argv);
+    int status = arguments_parse(&reachd.arguments, argc, argv);
 
     if (status >= 0)
         return status;
     log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
-    status = config_load(&reachd.config, reachd.arguments.configs, reachd.arguments.n_configs,
-                         reachd.arguments.overrides, reachd.arguments.n_overrides, error,
-                         sizeof error) ||
-             check_model_directory(&reachd.config, error, sizeof error) ||
-             (reachd.arguments.check_model ? check_model(&reachd.config, error, sizeof error)
-                                           : run(&reachd, error, sizeof error));
+    status = load_config(&reachd, error, sizeof error) || work(&reachd, error, sizeof error);
     if (status)
         log_error("%s", error);
     tear_down(&reachd);

@@ -51,6 +51,11 @@ class SameRun(unittest.TestCase):
     def test_same_seed_same_summary(self):
         first = json.dumps(demo(self.folder / "a", 7))
         self.assertEqual(first, json.dumps(demo(self.folder / "b", 7)))
+        # And the log of a whole experiment gives the run again.
+        log = self.folder / "a/run.lcmlog"
+        replay = [programs.BINARIES / "reachd", "--replay", log, "--verify"]
+        result = subprocess.run(replay, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_the_seed_decides_the_commands_and_the_truth_does_not(self):
         with_truth = commands_of_babbling(self.folder / "truth", 3)

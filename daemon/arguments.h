@@ -1,0 +1,28 @@
+/* reachd's command line. */
+#ifndef REACH_ARGUMENTS_H
+#define REACH_ARGUMENTS_H
+
+#include <stdbool.h>
+
+enum { MAX_CONFIGS = 8, MAX_OVERRIDES = 64, MAX_MODELS = 16 };
+
+struct arguments {
+    const char *configs[MAX_CONFIGS];
+    int n_configs;
+    const char *url;
+    const char *overrides[MAX_OVERRIDES];
+    int n_overrides;
+    bool lockstep, no_rt, check_model, verbose;
+
+    const char *replay; /* a log; NULL = none */
+    bool replay_clock;  /* what is played on the bus */
+    bool verify;
+    const char *models[MAX_MODELS];
+    int n_models;
+};
+
+/* Returns -1 to go on, or an exit status: 0 when what was asked for has been printed, 2 with one
+ * line on stderr. */
+int arguments_parse(struct arguments *arguments, int argc, char **argv);
+
+#endif

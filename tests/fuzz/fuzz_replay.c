@@ -1,0 +1,76 @@
+/* A log that is to be replayed: as it is, and with its checksums made right again, so that what was
+ * damaged gets as far as the control step. What comes out is finite, and a refusal has a reason. */
+#include "event_log.h"
+#include "harness.h"
+#include "incoming.h"
+#include "loop_replay.h"
+#include "outgoing.h"
+
+#include <math.h>
+#include <reach_config_t.h>
+#include <string.h>
+
+enum { CONFIG_CHECKSUM_AT = 24, CONFIG_TEXT_AT = CONFIG_CHECKSUM_AT + 4 + 48 };
+
+static struct event_log event_log;
+
+static void check(void *user, struct tick_outputs *outputs)
+{
+    (void)user;
+    for (int i = 0; outputs->has_command && i < 16; i++)
+        HARNESS_REQUIRE(isfinite(outputs->command.velocity[i]));
+}
+
+static void put_word(unsigned char *at, uint32_t word)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (unsigned char)(word >> (24 - 8 * i));
+}
+
+/* As somebody would who knows how checksums are made. */
+static void make_right(const char *channel, unsigned char *data, size_t size)
+{
+    size_t covered = outgoing_trace_covered();
+
+    if (strcmp(channel, "REACH_TRACE") == 0 && size == covered + 4)
+        put_word(data + covered, incoming_checksum(data, covered));
+    if (strcmp(channel, "REACH_CONFIG") == 0 && size > CONFIG_TEXT_AT) {
+        size_t most = size - CONFIG_TEXT_AT;
+        size_t length = strnlen((const char *)data + CONFIG_TEXT_AT, most);
+        put_word(data + CONFIG_CHECKSUM_AT, incoming_checksum(data + CONFIG_TEXT_AT, length));
+    }
+}
+
+static void replay_made_right(const char *path)
+{
+    const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check};
+    struct replay *replay = replay_create(&settings);
+    struct event event;
+    char error[512] = "";
+
+    event_log.file = fopen(path, "rb");
+    event_log.position = 0;
+    HARNESS_REQUIRE(replay && event_log.file);
+    while (event_log_next(&event_log, &event, error, sizeof error) > 0) {
+        if (!event.data)
+            continue;
+        make_right(event.channel, event_log.data, event.size);
+        if (replay_take(replay, event.channel, event.data, event.size, event.position, error,
+                        sizeof error))
+            HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
+    }
+    fclose(event_log.file);
+    replay_destroy(replay);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const struct replay_settings settings = {.verify = true};
+    const char *path = harness_file(data, size);
+    char error[512] = "";
+
+    if (loop_replay_log(path, &settings, error, sizeof error))
+        HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
+    replay_made_right(path);
+    return 0;
+}
