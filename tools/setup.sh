@@ -73,7 +73,8 @@ setup_python() {
     cp requirements.txt .venv/requirements.installed
 }
 
-# The viewer of ./run live, some 170 MB, and only that.
+# The viewer of ./run live, 170 MB to fetch and 500 MB on disk: too much for ./run demo, which says how
+# to get it and writes no recording without it.
 setup_live() {
     .venv/bin/python -c 'import rerun' 2>/dev/null && return 0
     echo "run: installing rerun-sdk into .venv" >&2

@@ -36,7 +36,7 @@ class Live(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             recording = Path(folder) / "live.rrd"
             command = [sys.executable, "-m", "reach.live", "--out", folder, "--do", "babble 5",
-                       "--seconds", "15", "--save", recording]  # fmt: skip
+                       "--seconds", "8", "--save", recording]  # fmt: skip
             result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True,
                                     text=True, timeout=120)  # fmt: skip
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -21,9 +21,9 @@ ROOT = Path(__file__).resolve().parents[2]
 # The rest wants the tree.
 MODULES = (
     "__init__", "bus", "client", "command_line", "event_log", "export", "learner", "messages",
-    "record",
+    "record", "recording", "view",
 )  # fmt: skip
-EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"]}
+EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"], "rerun": ["rerun-sdk"]}
 SCRIPTS = {"reach-export": "reach.export:main"}
 
 

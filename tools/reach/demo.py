@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, programs, report, summary
+from . import metrics, pictures, programs, recording, report, summary
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .experiment import Experiment, ExperimentError
@@ -84,7 +84,7 @@ def run(options: argparse.Namespace, phases: list[dict]) -> None:
 def prepare_folder(out: Path) -> None:
     """Old results must not be taken for those of this run."""
     out.mkdir(parents=True, exist_ok=True)
-    for name in ("run.json", "summary.json", "report.html", "run.lcmlog"):
+    for name in ("run.json", "summary.json", "report.html", "run.lcmlog", "run.rrd"):
         (out / name).unlink(missing_ok=True)
     shutil.rmtree(out / "images", ignore_errors=True)
 
@@ -116,6 +116,8 @@ def conclude(options: argparse.Namespace) -> None:
     if lost := result["wall"]["log_lost"]:
         print(f"demo: the log lacks {lost} ticks: this machine was too busy to write them, and the"
               " summary may differ from that of another run", file=sys.stderr)  # fmt: skip
+    if missing := recording.beside(out / "run.lcmlog"):
+        print(f"demo: {missing}", file=sys.stderr)
     for line in report.five_lines(out, record, result):
         print(line)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import recording
 from .command_line import Parser
 from .event_log import events
 from .messages import CHANNELS, bot_core
@@ -157,9 +158,12 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--csv", type=Path, metavar="DIR", help="a CSV file a channel")
     parser.add_argument("--parquet", type=Path, metavar="DIR", help="a Parquet file a channel")
     parser.add_argument("--mcap", type=Path, metavar="FILE", help="one file, such as for Foxglove")
+    parser.add_argument("--rrd", type=Path, metavar="FILE", help="one file, for Rerun's viewer")
+    parser.add_argument("--urdf", type=Path, metavar="FILE",
+                        help="the robot in it; default: one of ours with the log's joints")  # fmt: skip
     options = parser.parse_args(arguments)
-    if not (options.csv or options.parquet or options.mcap):
-        parser.error("--csv, --parquet or --mcap is wanted")
+    if not (options.csv or options.parquet or options.mcap or options.rrd):
+        parser.error("--csv, --parquet, --mcap or --rrd is wanted")
     return options
 
 
@@ -176,6 +180,8 @@ def export(options: argparse.Namespace) -> str:
         write_parquet(record, options.parquet)
     if options.mcap:
         write_mcap(record, options.log, options.mcap)
+    if options.rrd:
+        recording.write(options.log, options.rrd, options.urdf)
     total = sum(len(rows) for rows in channels.values())
     refused = f", {record.refused} of another layout left out" if record.refused else ""
     return f"{total} messages of {len(channels)} channels{refused}"
@@ -185,7 +191,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     try:
         print(f"reach-export: {export(options)}")
-    except (ExportError, OSError) as error:
+    except (ExportError, recording.MissingError, OSError) as error:
         print(f"reach-export: {error}", file=sys.stderr)
         return 1
     return 0

@@ -11,8 +11,10 @@ import lcm
 from . import programs
 from .bus import NoAnswerError
 from .command_line import Parser
+from .event_log import events
 from .messages import ROOT
 from .processes import ProcessDiedError
+from .recording import robot_of
 from .session import Stop, session
 
 QUEUE = 500  # messages that may wait while the window is fed
@@ -66,7 +68,7 @@ def show_run(options: argparse.Namespace, view) -> None:
 
 
 def show_log(log: Path, view) -> None:
-    for event in lcm.EventLog(str(log)):
+    for event in events(log):
         view.take(event.channel, event.data)
 
 
@@ -95,7 +97,7 @@ def main(arguments: list[str] | None = None) -> int:
         view.open_file(options.save)
     else:
         view.open_window()
-    shown = view.View(ROOT / "etc/robots/kobian.urdf")
+    shown = view.View(robot_of(options.log) if options.log else ROOT / "etc/robots/kobian.urdf")
     try:
         if options.log:
             show_log(options.log, shown)

@@ -1,6 +1,6 @@
 """What the window of `./run live` shows, by Rerun; wants rerun-sdk, which `./run live` installs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import rerun as rr
@@ -12,16 +12,18 @@ from .messages import bot_core, reach
 BALL_RADIUS = 0.02  # m
 EYES = {bot_core.images_t.LEFT: "left", bot_core.images_t.RIGHT: "right"}
 IMAGE_CENTRE = (320, 240)  # px
+_UTIME = slice(8, 16)  # where an encoded message has it
 
 
 class View:
-    """Turns messages into what the window shows, on the robot's own time."""
+    """Turns messages into what the window shows, on the robot's own time: of each channel at most
+    one in `step` microseconds. Without a URDF there is no robot to be seen, but all the rest."""
 
-    def __init__(self, urdf: Path):
-        self._urdf = UrdfTree.from_file_path(urdf)
-        self._urdf.log_urdf_to_recording()
-        self._joints = {joint.name: joint for joint in self._urdf.joints()}
+    def __init__(self, urdf: Path | None, step: int = 1):
+        self._joints = {}
         self._start: int | None = None
+        self._step = step
+        self._shown: dict[str, int] = {}  # channel -> step of its newest message
         self._take: dict[str, tuple[type, Callable]] = {
             "JOINT_STATE": (bot_core.joint_state_t, self._on_joints),
             "STEREO_IMAGES": (bot_core.images_t, self._on_images),
@@ -29,14 +31,26 @@ class View:
             "SIM_TRUTH": (reach.sim_truth_t, self._on_truth),
             "REACH_STATUS": (reach.status_t, self._on_status),
         }
-        root = self._urdf.root_link().name
-        rr.log("robot/ball", rr.CoordinateFrame(root), static=True)
         rr.log("robot", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        rr.send_blueprint(blueprint(self._urdf.name, root))
+        name, root = self._show_robot(urdf) if urdf else ("robot", None)
+        rr.send_blueprint(blueprint(name, root))
+
+    def _show_robot(self, urdf: Path) -> tuple[str, str]:
+        """Its name, and that of its first link's frame."""
+        tree = UrdfTree.from_file_path(urdf)
+        tree.log_urdf_to_recording()
+        self._joints = {joint.name: joint for joint in tree.joints()}
+        root = tree.root_link().name
+        rr.log("robot/ball", rr.CoordinateFrame(root), static=True)
+        return tree.name, root
 
     def take(self, channel: str, data: bytes) -> None:
         if channel not in self._take:
             return
+        step = int.from_bytes(data[_UTIME], "big") // self._step
+        if self._shown.get(channel) == step:
+            return
+        self._shown[channel] = step
         kind, show = self._take[channel]
         message = kind.decode(data)
         if self._start is None:
@@ -76,15 +90,15 @@ class View:
             rr.log(f"plots/{name}", rr.Scalars(getattr(status, name)))
 
 
-def blueprint(robot: str, root: str) -> "rrb.Blueprint":
-    """Where everything is in the window; `root` is the frame of the robot's first link."""
+def blueprint(robot: str, root: str | None) -> "rrb.Blueprint":
+    """Where everything is in the window; `root` is the frame of the robot's first link, if any."""
     eyes = [rrb.Spatial2DView(origin=f"eyes/{eye}", name=f"{eye} eye") for eye in EYES.values()]
     body = rrb.Spatial3DView(
         origin="/", name="robot",
         contents=["/**", "- /eyes/**", "- /plots/**", f"- /{robot}/collision_geometries/**"],
-        spatial_information=rrb.SpatialInformation(target_frame=root),
+        spatial_information=rrb.SpatialInformation(target_frame=root) if root else None,
     )  # fmt: skip
-    titles = {"error": "distance to the target [px]", "experts": "experts",
+    titles = {"error": "distance to the target [px or m]", "experts": "experts",
               "solutions": "solutions of the prediction", "compute_us": "tick [us]"}  # fmt: skip
     plots = [rrb.TimeSeriesView(origin=f"plots/{name}", name=title)
              for name, title in titles.items()]  # fmt: skip
@@ -96,6 +110,16 @@ def blueprint(robot: str, root: str) -> "rrb.Blueprint":
 def open_window() -> None:
     rr.init("reachd")
     rr.spawn(memory_limit="1GB", hide_welcome_screen=True)
+
+
+def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> None:
+    """What the window would have shown of a log, as a file of its own."""
+    with rr.RecordingStream("reachd") as recording:
+        recording.save(path)
+        view = View(urdf, step)
+        for event in events:
+            view.take(event.channel, event.data)
+    recording.disconnect()
 
 
 def open_file(path: Path) -> None:

@@ -76,7 +76,9 @@ def do_missing(options: argparse.Namespace, runs: list[Run]) -> None:
     })  # fmt: skip
     stop = Stop()
     for run in missing:
-        perform.perform(run, folder_of(options, run), present, progress, stop)
+        lacks = perform.perform(run, folder_of(options, run), present, progress, stop)
+        if lacks and run is missing[0]:
+            print(f"paper: {lacks}", file=sys.stderr)
 
 
 def _lost(group, learners: tuple[str, ...]) -> list[rows.Row]:

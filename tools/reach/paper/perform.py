@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import summary
+from .. import recording, summary
 from ..experiment import Experiment
 from ..progress import Progress
 from ..record import read_log
@@ -18,8 +18,9 @@ from .plan import Run, described, digest
 _HERE = Path(__file__).parent
 
 
-def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop) -> None:
-    """Leaves log and run.json; run.json, written last, says that the run is complete."""
+def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop) -> str | None:
+    """Leaves log, recording and run.json, which is written last and says that the run is complete.
+    Returns why there is no recording, or None."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     start, phases, inputs = time.monotonic(), [], run.inputs(version)
@@ -33,8 +34,10 @@ def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop
     description = {"group": run.group.NAME, "learner": run.learner, "seed": run.seed,
                    "settings": run.settings, "phases": phases, "inputs": inputs,
                    "wall_seconds": round(time.monotonic() - start, 1)}  # fmt: skip
+    missing = recording.beside(folder / packed.NAME)
     packed.pack(folder)
     write_json(folder / "run.json", description)
+    return missing
 
 
 def measure(run: Run, folder: Path) -> dict:

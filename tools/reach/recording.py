@@ -1,0 +1,63 @@
+"""A run's log as a recording for Rerun's viewer: what the window of `./run live` would have shown,
+ten times a second of the robot's time.
+
+Without rerun-sdk, which is large and optional, nothing is written and one line says so.
+"""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+from .event_log import events
+from .messages import ROOT, bot_core
+
+MISSING = (
+    "rerun-sdk is missing: pip install 'reach[rerun]'; in the tree:"
+    " .venv/bin/python -m pip install -r requirements-live.txt"
+)
+
+
+STEP = 100_000  # us; a person sees no more, and all 50 a second take five times as long to write
+
+
+class MissingError(Exception):
+    """rerun-sdk is not installed; one line for the user."""
+
+
+def write(log: Path, path: Path, urdf: Path | None = None) -> None:
+    """Writes the recording; `urdf` is the robot, by default one of ours that has the log's joints.
+    A file under its own name is whole."""
+    try:
+        from . import view
+    except ImportError:
+        raise MissingError(MISSING) from None
+    aside = path.with_name(f"{path.name}.new")
+    view.write_log(events(log), aside, urdf or robot_of(log), STEP)
+    aside.replace(path)
+
+
+def beside(log: Path) -> str | None:
+    """Writes LOG's name with .rrd. None, or one line that says why not: it is no reason to fail."""
+    path = log.with_suffix(".rrd")
+    path.unlink(missing_ok=True)
+    try:
+        write(log, path)
+    except (MissingError, OSError, RuntimeError) as error:
+        return f"no {path.name} for Rerun's viewer beside the log: {error}"
+    return None
+
+
+def robot_of(log: Path) -> Path | None:
+    """The robot of ours that has all joints that the log tells of."""
+    joints = _joints_in(log)
+    for urdf in sorted((ROOT / "etc/robots").glob("*.urdf")):
+        names = {joint.get("name") for joint in ElementTree.parse(urdf).iter("joint")}
+        if joints and joints <= names:
+            return urdf
+    return None
+
+
+def _joints_in(log: Path) -> set[str]:
+    for event in events(log):
+        if event.channel == "JOINT_STATE":
+            return set(bot_core.joint_state_t.decode(event.data).joint_name)
+    return set()
