@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <malloc.h>
 #include <sched.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -63,12 +64,15 @@ int realtime_thread(pthread_t *thread, int priority, void *(*start)(void *), voi
                     char *error, size_t error_size)
 {
     struct sched_param parameters = {.sched_priority = priority};
+    /* An ordinary thread of an ordinary one needs no call that a service may have been denied. */
+    bool inherits = priority == 0 && sched_getscheduler(0) == SCHED_OTHER;
     pthread_attr_t attributes;
     int failed;
 
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, REALTIME_STACK);
-    pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+    pthread_attr_setinheritsched(&attributes,
+                                 inherits ? PTHREAD_INHERIT_SCHED : PTHREAD_EXPLICIT_SCHED);
     pthread_attr_setschedpolicy(&attributes, policy_of(priority));
     pthread_attr_setschedparam(&attributes, &parameters);
     failed = pthread_create(thread, &attributes, start, user);
