@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,11 @@ class Demo(unittest.TestCase):
         for name in ("report.html", "summary.json", "run.lcmlog"):
             self.assertIn(str(self.out / name), self.run_result.stdout)
             self.assertGreater((self.out / name).stat().st_size, 500)
+
+    def test_a_recording_for_the_viewer_or_how_to_get_it(self):
+        written = (self.out / "run.rrd").exists()
+        self.assertEqual(written, find_spec("rerun") is not None)
+        self.assertEqual("requirements-live.txt" in self.run_result.stderr, not written)
 
     def test_summary_has_every_key(self):
         for name in ("hand", "tool"):

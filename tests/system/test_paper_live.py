@@ -6,6 +6,7 @@ import json
 import tempfile
 import time
 import unittest
+from importlib.util import find_spec
 from pathlib import Path
 from unittest import mock
 
@@ -30,6 +31,8 @@ class Live(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             out = Path(name)
             self.call(out)
+            recordings = list(out.glob("runs/*/run.rrd"))
+            self.assertEqual(len(recordings), find_spec("rerun") is not None)
             table = json.loads((out / "summary.json").read_text())
             self.assertEqual([row["id"] for row in table if row["n"] != 1], [])
             values = {row["id"]: row["mean"] for row in table}

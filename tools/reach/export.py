@@ -159,8 +159,8 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--parquet", type=Path, metavar="DIR", help="a Parquet file a channel")
     parser.add_argument("--mcap", type=Path, metavar="FILE", help="one file, such as for Foxglove")
     parser.add_argument("--rrd", type=Path, metavar="FILE", help="one file, for Rerun's viewer")
-    parser.add_argument("--urdf", type=Path, metavar="FILE",
-                        help="the robot in it; default: one of ours with the log's joints")  # fmt: skip
+    parser.add_argument("--urdf", type=Path, metavar="FILE", help="the robot in it; default: one"
+                        " of ours with the log's joints")  # fmt: skip
     options = parser.parse_args(arguments)
     if not (options.csv or options.parquet or options.mcap or options.rrd):
         parser.error("--csv, --parquet, --mcap or --rrd is wanted")
@@ -191,7 +191,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     try:
         print(f"reach-export: {export(options)}")
-    except (ExportError, recording.MissingError, OSError) as error:
+    except (ExportError, recording.RecordingError, OSError) as error:
         print(f"reach-export: {error}", file=sys.stderr)
         return 1
     return 0

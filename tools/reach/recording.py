@@ -19,8 +19,8 @@ MISSING = (
 STEP = 100_000  # us; a person sees no more, and all 50 a second take five times as long to write
 
 
-class MissingError(Exception):
-    """rerun-sdk is not installed; one line for the user."""
+class RecordingError(Exception):
+    """Why there is none; one line for the user."""
 
 
 def write(log: Path, path: Path, urdf: Path | None = None) -> None:
@@ -29,10 +29,17 @@ def write(log: Path, path: Path, urdf: Path | None = None) -> None:
     try:
         from . import view
     except ImportError:
-        raise MissingError(MISSING) from None
+        raise RecordingError(MISSING) from None
+    if urdf:
+        urdf.open("rb").close()  # Rerun's own complaint does not name the file
     aside = path.with_name(f"{path.name}.new")
-    view.write_log(events(log), aside, urdf or robot_of(log), STEP)
-    aside.replace(path)
+    try:
+        view.write_log(events(log), aside, urdf or robot_of(log), STEP)
+        aside.replace(path)
+    except RuntimeError as error:
+        raise RecordingError(f"{path}: {error}") from None
+    finally:
+        aside.unlink(missing_ok=True)
 
 
 def beside(log: Path) -> str | None:
@@ -41,7 +48,7 @@ def beside(log: Path) -> str | None:
     path.unlink(missing_ok=True)
     try:
         write(log, path)
-    except (MissingError, OSError, RuntimeError) as error:
+    except (RecordingError, OSError) as error:
         return f"no {path.name} for Rerun's viewer beside the log: {error}"
     return None
 

@@ -1,5 +1,7 @@
 """A log becomes a recording for Rerun, read back by Rerun's own reader."""
 
+import contextlib
+import io
 import subprocess
 import sys
 import tempfile
@@ -94,6 +96,19 @@ class Recording(unittest.TestCase):
         self.make(10)
         self.assertIsNone(recording.beside(self.log))
         self.assertGreater(counts(self.path)["plots/error"], 0)
+
+    def test_what_cannot_be_is_said_in_one_line(self):
+        self.make(10)
+        for words, says in (
+            (["--rrd", self.path, "--urdf", self.folder / "none.urdf"], "none.urdf"),
+            (["--rrd", self.path, "--urdf", ROOT / "README.md"], "URDF"),
+            (["--rrd", self.folder / "none/run.rrd"], "none/run.rrd"),
+        ):
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.assertEqual(export.main([str(word) for word in (self.log, *words)]), 1)
+            self.assertEqual(said.getvalue().count("\n"), 1, said.getvalue())
+            self.assertIn(says, said.getvalue())
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["run.lcmlog"])
 
     def test_without_rerun_one_line_says_so(self):
         self.make(10)
