@@ -6,9 +6,7 @@ that it shows, runs its commands, and holds what they print, and the daemon's st
 leaves the pictures of such a run there."""
 
 import json
-import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,13 +14,11 @@ from pathlib import Path
 
 import markdown
 from PIL import Image, ImageChops
+from scratch import SOURCE, Scratch
 
-SOURCE = Path(__file__).resolve().parents[2]
-BUILD = Path(os.environ.get("REACH_BUILD_DIR", SOURCE / "build"))
 PAGE = SOURCE / "docs/tutorial.md"
 FOLDER = "out/desk-arm"  # where the page works, below the tree
 PICTURES = {"stick.png": "tutorial-stick.jpg", "learning_curve.png": "tutorial-learning.png"}
-LONGEST = 100 * int(os.environ.get("CK_TIMEOUT_MULTIPLIER", "1"))  # s; sanitizers are slow
 _COMPARE = {"<": float.__lt__, ">=": float.__ge__, "==": float.__eq__}
 
 
@@ -70,23 +66,6 @@ def masked(line: str) -> str:
     return re.sub(r"\s+", " ", re.sub(r"-?\d+(\.\d+)?", "#", line)).strip()
 
 
-class Strict:
-    """A tree of links in a scratch folder, and shells that end at the first error."""
-
-    def __init__(self, folder: Path):
-        self.folder = folder
-        for name in ("tools", "examples"):
-            (folder / name).symlink_to(SOURCE / name)
-        (folder / "build").symlink_to(BUILD)
-        (folder / ".venv").symlink_to(sys.prefix)
-        (folder / "strict").write_text("set -e -o pipefail\n")
-
-    def run(self, commands: str) -> subprocess.CompletedProcess:
-        environment = os.environ | {"BASH_ENV": str(self.folder / "strict")}
-        return subprocess.run(["bash"], input=commands, cwd=self.folder, env=environment,
-                              capture_output=True, text=True, timeout=LONGEST)  # fmt: skip
-
-
 class Tutorial(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -94,7 +73,7 @@ class Tutorial(unittest.TestCase):
         cls.addClassCleanup(scratch.cleanup)
         cls.work = Path(scratch.name) / FOLDER
         cls.page = markdown.read(PAGE)
-        cls.result = Strict(Path(scratch.name)).run(script(cls.page))
+        cls.result = Scratch(Path(scratch.name)).run(script(cls.page))
         found = re.findall(r"(.*?)^@@ (\d+)$(.*?)^@@$", cls.result.stdout, re.M | re.S)
         cls.said = {int(line): (output, status) for output, line, status in found}
 
@@ -157,7 +136,7 @@ class Tutorial(unittest.TestCase):
 def keep_pictures(folder: Path) -> None:
     """Runs the page and leaves its pictures, small."""
     with tempfile.TemporaryDirectory() as scratch:
-        result = Strict(Path(scratch)).run(script(markdown.read(PAGE)))
+        result = Scratch(Path(scratch)).run(script(markdown.read(PAGE)))
         if result.returncode:
             sys.exit(result.stderr)
         for name, kept in PICTURES.items():
