@@ -79,8 +79,8 @@ int options_load_as(const struct option_row *table, void *target, const char *co
 /* Prints the table as a reference, two lines an option, of which tools/reference.py makes a page:
  *     NAME HELP
  *     TYPE, default VALUE | must be given[, unit U][, one of A|B][, range LOW .. HIGH]
- * Defaults of `option_preset`
- * rows are read from `preset`, which may be NULL for a table without them. */
+ * Defaults of `option_preset` rows are read from `preset`, which may be NULL for a table without
+ * them. */
 void options_print(const struct option_row *table, const void *preset, FILE *out);
 
 /* The value in `target` as YAML would hold it, to the last bit; a list of none is the empty text.

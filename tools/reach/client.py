@@ -108,11 +108,17 @@ class Reach:
         """Sends a request; returns the status that accepts it."""
         request = self._bus.prepare(getattr(reach.request_t, kind), **fields)
         # Repeats change nothing: the daemon may just be starting.
-        self._handle_until(lambda: self._answered(request.seq), lambda: self._bus.send(request))
+        self._bus.send(request)
+        self._handle_until(lambda: self._answered(request.seq), lambda: self._send_again(request))
         status = self._bus.status
         if status.request_result != status.ACCEPTED:
             raise RefusedError(f"reachd: {_RESULTS.get(status.request_result, 'unknown result')}")
         return status
+
+    def _send_again(self, request) -> None:
+        # Numbers are of the clock: a greater one is somebody's later wish, not to be undone.
+        if self._bus.status is None or self._bus.status.request_seq <= request.seq:
+            self._bus.send(request)
 
     def _answered(self, seq: int) -> bool:
         status = self._bus.status
@@ -126,7 +132,6 @@ class Reach:
         """Until done(), sending now and then."""
         now = sent = time.monotonic()
         end = now + self._timeout
-        send()
         while not done():
             now = time.monotonic()
             if now - sent > RESEND_SECONDS:

@@ -108,6 +108,12 @@ static bool answers(const reach_status_t *status, const reach_request_t *request
            status->request_result != REACH_STATUS_T_PENDING;
 }
 
+/* Numbers are of the clock: a greater one is somebody's later wish, which ours must not undo. */
+static bool is_overtaken(const struct client *client, const reach_request_t *request)
+{
+    return client->status.request_seq > request->seq;
+}
+
 /* Sent again now and then, which changes nothing: the daemon may just be starting. */
 int client_ask_daemon(struct client *client, reach_request_t *request, double timeout, char *error,
                       size_t error_size)
@@ -121,7 +127,8 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
         if (now >= deadline)
             return no_daemon(timeout, error, error_size);
         if (now >= due) {
-            reach_request_t_publish(client->lcm, "REACH_REQUEST", request);
+            if (!is_overtaken(client, request))
+                reach_request_t_publish(client->lcm, "REACH_REQUEST", request);
             due = now + resend_us;
         }
         status = client_status(client, (double)((due < deadline ? due : deadline) - now) * 1e-6);

@@ -92,6 +92,15 @@ class Reachctl(unittest.TestCase):
             self.assertEqual(reachctl("babble", "5").returncode, 0)
         self.assertEqual(len(daemon.requests), 1)
 
+    def test_a_request_does_not_come_back_after_a_later_one(self):
+        later = reach.request_t()
+        later.seq = 2**62
+        with Scripted(deaf_to=1) as daemon:
+            daemon.requests.append(later)
+            result = reachctl("babble", "5", "--timeout", "1.5")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(daemon.requests, [later])
+
     def test_targets_from_a_file(self):
         with tempfile.TemporaryDirectory() as folder, Scripted() as daemon:
             path = Path(folder) / "targets"
