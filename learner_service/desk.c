@@ -209,30 +209,37 @@ static void predict(struct desk *desk, const reach_learner_request_t *request, i
         predict_inverse(desk, request->x, out);
 }
 
+/* What became of it, unless that is not known yet. */
+static enum desk_answer tell(struct desk *desk, int64_t client, const struct deed *deed,
+                             int64_t now, struct desk_output *output)
+{
+    if (deed->waits)
+        return DESK_SILENT;
+    reply_to(desk, client, deed, now, &output->reply);
+    return DESK_REPLY;
+}
+
 enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request, int64_t now,
                            struct desk_output *output)
 {
     const bool late = request->deadline != 0 && now > request->deadline;
+    const bool acts = request->kind == REQUEST(UPDATE) || request->kind == REQUEST(SAVE);
     struct deed deed = {.seq = request->seq, .kind = request->kind};
 
     desk->requests++;
     deed.status = request_check(request, desk->n_inputs, desk->n_outputs, desk->keeps);
-    if (deed.status != REPLY(DONE)) {
-        /* refused */
-    } else if (request->kind == REQUEST(UPDATE) || request->kind == REQUEST(SAVE)) {
+    if (deed.status == REPLY(DONE) && acts)
         act(desk, request, late, &deed);
-    } else if (late) {
+    else if (deed.status == REPLY(DONE) && late)
         deed.status = REPLY(LATE);
-    } else if (request->kind == REQUEST(STATISTICS)) {
-        clients_admit(desk->clients, request->client, request->seq);
-    } else {
+    if (deed.status != REPLY(DONE) || acts)
+        return tell(desk, request->client, &deed, now, output);
+    if (request->kind != REQUEST(STATISTICS)) {
         predict(desk, request, now, &output->prediction);
         return DESK_PREDICTION;
     }
-    if (deed.waits)
-        return DESK_SILENT;
-    reply_to(desk, request->client, &deed, now, &output->reply);
-    return DESK_REPLY;
+    clients_admit(desk->clients, request->client, request->seq);
+    return tell(desk, request->client, &deed, now, output);
 }
 
 /* Answers, and remembers that it was answered. */

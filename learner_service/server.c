@@ -154,8 +154,12 @@ static int create(struct server *server, const struct settings *settings, lcm_t 
         return -1;
     server->desk =
         desk_create(config, server->learner, server->store, server->keeps, server->arena);
+    if (!server->desk) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
     server->bus = service_bus_create(lcm, wake, NULL, server->arena, error, error_size);
-    return server->desk && server->bus ? 0 : -1;
+    return server->bus ? 0 : -1;
 }
 
 /* The first snapshot is made before the first request is taken, so that samples can be safe. */
