@@ -98,9 +98,13 @@ install(FILES etc/systemd/lan.conf DESTINATION ${CMAKE_INSTALL_DOCDIR}/systemd C
 install(DIRECTORY examples/learner DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libreach-dev/examples ${dev})
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/reach-tools
         COMPONENT reach-tools PATTERN CMakeLists.txt EXCLUDE PATTERN learner EXCLUDE)
+set(changelog ${CMAKE_BINARY_DIR}/generated/changelog)
+reach_put_version(${CMAKE_SOURCE_DIR}/cmake/debian/changelog.in ${changelog})
+add_custom_command(OUTPUT ${changelog}.gz COMMAND gzip -9nkf ${changelog} DEPENDS ${changelog})
+add_custom_target(reach_changelog ALL DEPENDS ${changelog}.gz)
 foreach(component reachd reach-sim reach-tools libreach-dev)
-  install(FILES cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${component}
-          COMPONENT ${component})
+  install(FILES cmake/debian/copyright ${changelog}.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${component} COMPONENT ${component})
 endforeach()
 
 # Units name installed paths, and share what they are hardened with.

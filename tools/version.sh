@@ -1,8 +1,9 @@
 #!/bin/sh
 # The version of this tree, "0.1.0 (c17bd48)": CMakeLists.txt's, and the git revision, or the one
 # that `git archive` put here, or "unknown".
-#   usage: version.sh [FILE]
-# prints it; with FILE writes it there, and leaves a FILE that holds it untouched.
+#   usage: version.sh [--debian | FILE]
+# prints it; with FILE writes it there, and leaves a FILE that holds it untouched. --debian: as a
+# package's, "0.1.0+git712.c17bd48", which grows with every commit.
 set -eu
 root=$(dirname "$(readlink -f "$0")")/..
 # shellcheck disable=SC2016 # git expands it, not the shell
@@ -22,10 +23,17 @@ revision() {
     esac
 }
 
+debian_suffix() {
+    local_revision=$(repository_revision) || return 0
+    echo "+git$(git -C "$root" rev-list --count HEAD).$(echo "$local_revision" | tr - .)"
+}
+
 number=$(sed -n 's/^project(reachd VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")
 version="$number ($(revision))"
 if [ $# -eq 0 ]; then
     echo "$version"
+elif [ "$1" = --debian ]; then
+    echo "$number$(debian_suffix)"
 elif [ "$(cat "$1" 2>/dev/null || true)" != "$version" ]; then
     echo "$version" >"$1"
 fi

@@ -30,14 +30,14 @@ def _cgroup_root() -> Path:
 class Machine:
     """A context: booted inside it, gone after it."""
 
-    def __init__(self, base: Path, build: Path):
-        self._base, self._build = base.resolve(), build.resolve()
+    def __init__(self, base: Path, packages: Path):
+        self._base, self._packages = base.resolve(), packages.resolve()
 
     def __enter__(self) -> "Machine":
         self._folder = tempfile.TemporaryDirectory(prefix="reach-boot-")
         self._cgroup = _cgroup_root() / f"reach-boot-{os.getpid()}"
         self._cgroup.mkdir()
-        command = [HERE / "inside.sh", self._base, self._build, self._folder.name]
+        command = [HERE / "inside.sh", self._base, self._packages, self._folder.name]
         self._log = tempfile.TemporaryFile("w+")
         self._unshare = subprocess.Popen(
             ["unshare", *NAMESPACES, "--fork", "--kill-child", *command],

@@ -31,7 +31,7 @@ def eventually(condition, what: str, seconds: float = 20):
 class Services(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.machine = cls.enterClassContext(Machine(BUILD / "boot/base", BUILD))
+        cls.machine = cls.enterClassContext(Machine(BUILD / "boot/base", BUILD / "packages"))
 
     def setUp(self):
         self.start()

@@ -1,30 +1,23 @@
 #!/usr/bin/env bash
-# Makes a Debian tree with systemd and with what installed programs of ours need to run, once; it is
-# made anew when the list of packages changes.
-#   usage: tree.sh FOLDER PROGRAM...
+# Makes a Debian tree with systemd and with what our packages depend on, but without them, once; it
+# is made anew when what they depend on changes.
+#   usage: tree.sh FOLDER PACKAGES    PACKAGES: the folder with our .deb files
 set -euo pipefail
-root=$(dirname "$(readlink -f "$0")")/../..
 
 fail() {
     echo "tree: $*" >&2
     exit 1
 }
 
-# The packages of the libraries that the programs name.
-library_packages() {
-    local program library path
-    for program; do
-        readelf -d "$program" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | while read -r library; do
-            path=$(ldd "$program" | awk -v name="$library" '$1 == name { print $3 }')
-            [ -z "$path" ] || dpkg -S "$path" 2>/dev/null || dpkg -S "/usr$path" 2>/dev/null ||
-                fail "no package has $path, which $program needs"
-        done
-    done | cut -d: -f1 | sort -u
-}
-
+# What packages depend on, and recommend, without what is in them themselves; the first of
+# alternatives.
 wanted_packages() {
-    library_packages "$@"
-    awk '$1 == "run" { print $2 }' "$root/cmake/packages.txt"
+    local package own
+    own=$(for package; do dpkg-deb --field "$package" Package; done)
+    for package; do
+        dpkg-deb --field "$package" Depends Recommends | sed 's/^[A-Z][a-z]*: //' | tr ',' '\n' |
+            sed 's/[(|].*//; s/ //g'
+    done | grep -vxF "$own" | sort -u
 }
 
 # In namespaces of its own, so that nothing which a package starts or mounts outlives it.
@@ -49,11 +42,10 @@ make_tree() {
     mv "$tree.new" "$tree"
 }
 
-[ $# -ge 2 ] || fail "usage: tree.sh FOLDER PROGRAM..."
+[ $# -eq 2 ] || fail "usage: tree.sh FOLDER PACKAGES"
 [ "$(id -u)" -eq 0 ] || fail "only root can make a tree to boot"
 tree=$1
-shift
-packages=$(wanted_packages "$@")
+packages=$(wanted_packages "$2"/*.deb && echo systemd)
 cmp -s "$tree/etc/reach-packages" <(echo "$packages") && exit 0
 echo "tree: making $tree" >&2
 mkdir -p "$(dirname "$tree")"
