@@ -41,9 +41,9 @@ class Experiment:
         """Learns to reach by reaching for goals of the robot's own, `count` samples."""
         self._behave(name, reach.request_t.EXPLORE, count=count, seed=seed, learn=1)
 
-    def star(self, name: str, targets: np.ndarray, period: float) -> None:
+    def star(self, name: str, targets: np.ndarray, period: float, learn: bool = True) -> None:
         """Reaches under a resting head, from the middle of the babbled range."""
-        self._pursue(name, reach.request_t.REACH, targets, period, learn=True)
+        self._pursue(name, reach.request_t.REACH, targets, period, learn)
 
     def coordinate(self, name: str, targets: np.ndarray, period: float, learn: bool) -> None:
         """The head turns to targets, the arm keeps the ball in fixation; the same start."""

@@ -4,13 +4,14 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 import synthetic
-from reach.paper import drawing, explore, i1, i2, icub, rows
+from reach.paper import drawing, explore, i1, i2, icub, rows, series
 from reach.record import read_log
 
 SIZES = {"samples": 30, "tests": 30, "cube_seconds": 2.0}
@@ -139,27 +140,83 @@ class Numbers(unittest.TestCase):
             self.assertEqual([n for n in figure.series if not data.path(n).exists()], [])
 
 
-class FromNothing(unittest.TestCase):
-    """Exploring, then targets: what counts as reached, and in which unit."""
+class Asked:
+    """An experimenter that notes what it is asked for."""
 
-    def measured(self, group: explore.Explore, beside: float) -> dict:
+    def __init__(self):
+        self.said = []
+
+    def __getattr__(self, name):
+        return lambda *words, **named: self.said.append((name, *words[:2], *named.items()))
+
+
+class FromNothing(unittest.TestCase):
+    """Exploring and babbling, then targets: what counts as reached, and in which unit."""
+
+    def measured(self, group: explore.Explore, beside: float) -> tuple[dict, dict]:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            run = synthetic.make(folder, 5, ("explore", "reach"), {"reach": group.targets()},
-                                 beside)  # fmt: skip
-            return group.analyse(read_log(folder / "run.lcmlog"), run, folder)
+            sizes = group.settings(quick=True, learner="imle")
+            asked = Asked()
+            group.perform(asked, sizes, seed=2)
+            names = tuple(entry[1] for entry in asked.said if entry[0] not in ("save", "load"))
+            run = synthetic.make(folder, 5, names, {"reach": group.targets()}, beside)
+            run["settings"] = sizes
+            numbers = group.analyse(read_log(folder / "run.lcmlog"), run, folder)
+            data = drawing.Data({"imle": [folder]})
+            for shown in group.figures(group.EXPERIMENTS):
+                self.assertTrue(shown.draw(data).axes)
+                self.assertEqual([n for n in shown.series if not data.path(n).exists()], [])
+            return numbers, {kind: series.read(folder / f"{group.experiment}_{kind}.csv")
+                             for kind in explore.KINDS}  # fmt: skip
 
     def test_metres_become_millimetres(self):
-        numbers = self.measured(explore.ICUB, 0.009)
+        numbers, curves = self.measured(explore.ICUB, 0.009)
         self.assertEqual(numbers["E1.reached_pct"], 100)
         self.assertAlmostEqual(numbers["E1.final_error_median_mm"], 9, places=4)
-        self.assertEqual(self.measured(explore.ICUB, 0.011)["E1.reached_pct"], 0)
+        for kind in explore.KINDS:
+            self.assertEqual(numbers[f"E1.{kind}.reached_pct"], 100)
+            self.assertEqual(list(curves[kind]["samples"]), [125, 500])
+            self.assertAlmostEqual(curves[kind]["error_max"][0], 9, places=4)
+        # Babbling goes on, each exploration begins anew: of two of 0.1 s one counts.
+        self.assertAlmostEqual(curves["babbled"]["seconds"][1], 0.2)
+        self.assertAlmostEqual(curves["explored"]["seconds"][1], 0.1)
+        self.assertEqual(self.measured(explore.ICUB, 0.011)[0]["E1.reached_pct"], 0)
 
     def test_pixels_stay(self):
-        numbers = self.measured(explore.KOBIAN, 4.0)
+        numbers, _ = self.measured(explore.KOBIAN, 4.0)
         self.assertEqual(numbers["E2.reached_pct"], 100)
         self.assertAlmostEqual(numbers["E2.final_error_max_px"], 4, places=4)
-        self.assertEqual(self.measured(explore.KOBIAN, 6.0)["E2.reached_pct"], 0)
+        self.assertEqual(self.measured(explore.KOBIAN, 6.0)[0]["E2.reached_pct"], 0)
+
+    def test_every_row_has_a_number(self):
+        for group in (explore.ICUB, explore.KOBIAN):
+            numbers, _ = self.measured(group, 0.0)
+            self.assertEqual([r.id for r in group.rows(("imle",)) if r.id not in numbers], [])
+
+    def test_a_target_that_was_never_pursued_is_missed(self):
+        with mock.patch.object(explore.track, "segment", lambda _, __, number: None):
+            numbers, curves = self.measured(explore.ICUB, 0.0)
+        self.assertEqual(numbers["E1.reached_pct"], 0)
+        self.assertEqual(curves["explored"]["error_median"][0], np.inf)
+
+    def test_each_exploration_begins_with_nothing(self):
+        asked = Asked()
+        explore.ICUB.perform(asked, {"explored": [1, 3], "babbled": [1, 3], "seconds": 2.0}, 2)
+        kinds = [entry[0] for entry in asked.said]
+        self.assertEqual(kinds, ["save", *["load", "explore", "reach_for"] * 2, "load",
+                                 *["babble", "reach_for"] * 2])  # fmt: skip
+        self.assertEqual([entry[2] for entry in asked.said if entry[0] == "explore"], [1, 3])
+        self.assertEqual([entry[2] for entry in asked.said if entry[0] == "babble"], [1, 2])
+        learned = [named for kind, *_, named in asked.said if kind == "reach_for"]
+        self.assertEqual(learned, [("learn", False)] * 4)
+
+    def test_every_phase_is_weighed(self):
+        for group in (explore.ICUB, explore.KOBIAN):
+            asked = Asked()
+            group.perform(asked, group.full, seed=1)
+            names = {entry[1] for entry in asked.said if entry[0] not in ("save", "load")}
+            self.assertEqual(set(group.weights(group.full)), names)
 
     def test_nine_in_ten_are_asked_for(self):
         for group in (explore.ICUB, explore.KOBIAN):

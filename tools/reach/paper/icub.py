@@ -25,7 +25,7 @@ MIDDLES = {"none": np.array([0.42, -0.05, 0.65]), "stick": np.array([0.42, -0.05
            "L": np.array([0.75, 0.08, 0.65])}  # fmt: skip
 
 _FULL = {"samples": 100_000, "tests": 30_000, "cube_seconds": 20.0}
-_QUICK = {"samples": 4_000, "tests": 2_000, "cube_seconds": 4.0}
+_QUICK = {"samples": 4_000, "tests": 2_000, "cube_seconds": 2.0}
 
 
 def settings(quick: bool, learner: str) -> dict:
@@ -43,9 +43,14 @@ def configurations() -> list[Path]:
 
 def programs(folder: Path) -> dict:
     """Options of programs.start(): what is said 500,000 times and not needed is not logged."""
-    model = folder / "model.yaml"
-    model.write_text(f"model:\n  directory: {json.dumps(str(folder))}\n  automatic: false\n")
-    return {"robot": NAME, "channels": CHANNELS, "configurations": [model]}
+    return {"robot": NAME, "channels": CHANNELS, "configurations": [model_folder(folder)]}
+
+
+def model_folder(folder: Path) -> Path:
+    """A configuration with which models can be put aside, into the run's folder."""
+    path = folder / "model.yaml"
+    path.write_text(f"model:\n  directory: {json.dumps(str(folder))}\n  automatic: false\n")
+    return path
 
 
 # Cubes and what they are done with, in order; a babbling before some.

@@ -22,9 +22,9 @@ PREPARE_SECONDS = 4.0  # robot time before the first target, about; for the time
 # Sizes: samples with hand, tool, hand; tests each time; seconds for each target of K2 and K3.
 _FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2.0,
          "star_seconds": 4.0}  # fmt: skip
-_QUICK = {"hand": 30, "tool": 30, "again": 10, "tests": 8, "turn_seconds": 2.0,
-          "star_seconds": 2.0}  # fmt: skip
-_QUICK_RIVAL = {"hand": 15, "tool": 15, "again": 3, "tests": 3, "turn_seconds": 1.5,
+_QUICK = {"hand": 25, "tool": 25, "again": 8, "tests": 5, "turn_seconds": 1.2,
+          "star_seconds": 1.5}  # fmt: skip
+_QUICK_RIVAL = {"hand": 12, "tool": 12, "again": 3, "tests": 3, "turn_seconds": 1.0,
                 "star_seconds": 1.0}  # fmt: skip
 
 

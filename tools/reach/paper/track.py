@@ -19,6 +19,14 @@ def segments(record: Record, phase: dict) -> list[tuple[int, int]]:
     return summary.star_segments(record, phase)[len(LEAD_IN) :]
 
 
+def segment(record: Record, phase: dict, number: int) -> tuple[int, int] | None:
+    """First and last instant of one target; us. None when it was never pursued."""
+    status = record["REACH_STATUS"]
+    mine = (status["request_seq"] == phase["request_seq"]) & (status["phase"] == summary.TRACK)
+    times = status["utime"][mine & (status["progress"] == number)]
+    return (int(times[0]), int(times[-1])) if len(times) > 1 else None
+
+
 def span(record: Record, phase: dict) -> tuple[int, int]:
     """From the first target's presentation to the last one's end; us. A ball that was lost and
     searched meanwhile is inside."""

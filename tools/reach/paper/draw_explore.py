@@ -1,0 +1,38 @@
+"""Reaching from nothing beside babbling: success and error against samples."""
+
+import numpy as np
+
+from ..figures import canvas
+from .drawing import Data, Shown, band, legend
+
+_COLOURS = {"explored": "#1f5fa8", "babbled": "#b8500f"}
+_WORDS = {"explored": "goals of its own, nothing babbled", "babbled": "babbling"}
+
+
+def shown(experiment: str, robot: str, unit: str, within: float) -> Shown:
+    def draw(data: Data):
+        figure, axes = canvas(1, 3, 3.4)
+        for kind, colour in _COLOURS.items():
+            curves = data.all(f"{experiment}_{kind}")
+            if not curves:
+                continue
+            for axis, name in zip(axes[0], ("reached_pct", "error_median", "seconds"), strict=True):
+                values = np.array([curve[name] for curve in curves])
+                band(axis, curves[0]["samples"], values, color=colour, label=_WORDS[kind],
+                     marker="o", ms=3.5)  # fmt: skip
+        labels = (f"targets within {within:g} {unit}, %", f"final error, median, {unit}",
+                  "the robot's time, s")  # fmt: skip
+        for axis, label in zip(axes[0], labels, strict=True):
+            axis.set(xlabel="learned samples", ylabel=label, xscale="log")
+        axes[0, 0].set_ylim(-3, 103)
+        axes[0, 1].set_yscale("log")
+        axes[0, 2].set_yscale("log")
+        legend(figure, axes[0, 0])
+        return figure
+
+    return Shown(
+        experiment, f"reaching from nothing, {robot}",
+        "Not in the paper. After each number of samples the model rests and the robot reaches for"
+        " 16 targets; mean, and least to largest over seeds.",
+        (f"{experiment}.",), tuple(f"{experiment}_{kind}" for kind in _COLOURS), draw,
+    )  # fmt: skip
