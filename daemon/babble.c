@@ -4,6 +4,7 @@
 #include "behaviour.h"
 
 #include <reach_status_t.h>
+#include <string.h>
 
 static const int most_draws = 20;  /* for a posture that promises something */
 static const double daring = 0.05; /* chance of a posture that promises nothing */
@@ -11,15 +12,13 @@ static const double daring = 0.05; /* chance of a posture that promises nothing 
 static void draw(struct babble *babble, const struct config *config)
 {
     for (int i = 0; i < config_arm_joints(config); i++)
-        babble->goal[i] = random_uniform(&babble->random, config->babble_min.value[i],
-                                         config->babble_max.value[i]);
+        babble->goal[i] = random_uniform(&babble->random, babble->min[i], babble->max[i]);
 }
 
 /* A random posture that promises to be of use, or now and then one that does not. */
-static void next_goal(struct behaviour *behaviour, struct control *control)
+static void next_goal(struct babble *babble, struct progress *progress, struct control *control)
 {
     const struct config *config = control->config;
-    struct babble *babble = &behaviour->babble;
 
     draw(babble, config);
     for (int k = 1; k < most_draws && !tried_promises(control->tried, config, babble->goal); k++) {
@@ -28,71 +27,87 @@ static void next_goal(struct behaviour *behaviour, struct control *control)
         draw(babble, config);
     }
     babble->deadline = control->now + (int64_t)(config->babble_timeout * 1e6);
-    behaviour->progress.phase = REACH_STATUS_T_MOVE;
+    progress->phase = REACH_STATUS_T_MOVE;
 }
 
-static void gather(struct behaviour *behaviour, struct control *control)
+static void gather(struct progress *progress, struct control *control)
 {
     control_gather(control, sight_pair_frames(control->config));
-    behaviour->progress.done++;
+    progress->done++;
+}
+
+void babble_begin(struct babble *babble, int64_t seed, const double *min, const double *max,
+                  struct progress *progress, struct control *control)
+{
+    size_t size = sizeof(double) * (size_t)config_arm_joints(control->config);
+
+    babble->random = random_seed(seed);
+    memcpy(babble->min, min, size);
+    memcpy(babble->max, max, size);
+    next_goal(babble, progress, control);
 }
 
 static void babble_start(struct behaviour *behaviour, const reach_request_t *request,
                          struct control *control)
 {
-    behaviour->babble.random = random_seed(request->seed);
+    const struct config *config = control->config;
+
     behaviour->progress.total = request->count;
-    next_goal(behaviour, control);
+    babble_begin(&behaviour->babble, request->seed, config->babble_min.value,
+                 config->babble_max.value, &behaviour->progress, control);
 }
 
 /* The arm is there, or as near as it gets: wait for the eyes. */
-static void move(struct behaviour *behaviour, struct control *control)
+static void move(struct babble *babble, struct progress *progress, struct control *control)
 {
-    struct babble *babble = &behaviour->babble;
     bool there = control_arm_to(control, babble->goal);
 
     control_gaze(control, false);
     if (!control->config->space.fixates) {
         if (control->sight->new_frame)
-            gather(behaviour, control);
+            gather(progress, control);
         if (there || control->now >= babble->deadline)
-            next_goal(behaviour, control);
+            next_goal(babble, progress, control);
         return;
     }
     if (there || control->now >= babble->deadline) {
         babble->deadline = control->now + (int64_t)(control->config->fixation_timeout * 1e6);
-        behaviour->progress.phase = REACH_STATUS_T_FIXATE;
+        progress->phase = REACH_STATUS_T_FIXATE;
     }
 }
 
-static void fixate(struct behaviour *behaviour, struct control *control)
+static void fixate(struct babble *babble, struct progress *progress, struct control *control)
 {
-    struct progress *progress = &behaviour->progress;
     enum gaze_state gaze;
 
-    control_arm_to(control, behaviour->babble.goal);
+    control_arm_to(control, babble->goal);
     gaze = control_gaze(control, true);
     progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
     /* What was fixated before the eyes went blind is no new sample. */
     if (gaze == GAZE_ON_MARKER && sight_fixated(control->sight)) {
-        tried_note(control->tried, behaviour->babble.goal, true);
-        gather(behaviour, control);
-        next_goal(behaviour, control);
-    } else if (control->now >= behaviour->babble.deadline) {
-        tried_note(control->tried, behaviour->babble.goal, false);
+        tried_note(control->tried, babble->goal, true);
+        gather(progress, control);
+        next_goal(babble, progress, control);
+    } else if (control->now >= babble->deadline) {
+        tried_note(control->tried, babble->goal, false);
         progress->skipped++;
-        next_goal(behaviour, control);
+        next_goal(babble, progress, control);
     }
+}
+
+void babble_run(struct babble *babble, struct progress *progress, struct control *control)
+{
+    if (progress->phase == REACH_STATUS_T_MOVE)
+        move(babble, progress, control);
+    else
+        fixate(babble, progress, control);
 }
 
 static bool babble_step(struct behaviour *behaviour, struct control *control)
 {
     if (behaviour->progress.done >= behaviour->progress.total)
         return false;
-    if (behaviour->progress.phase == REACH_STATUS_T_MOVE)
-        move(behaviour, control);
-    else
-        fixate(behaviour, control);
+    babble_run(&behaviour->babble, &behaviour->progress, control);
     return true;
 }
 

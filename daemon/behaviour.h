@@ -51,8 +51,18 @@ struct progress {
 /* Random joint references, each followed by fixation (paper section 7.1). */
 struct babble {
     struct random_state random;
-    double goal[MAX_JOINTS]; /* rad */
-    int64_t deadline;        /* us */
+    double min[MAX_JOINTS], max[MAX_JOINTS]; /* of the references, rad */
+    double goal[MAX_JOINTS];                 /* rad */
+    int64_t deadline;                        /* us */
+};
+
+/* Babbling where targets are missed (practice.h). */
+struct practice {
+    bool on;
+    bool again;     /* the present target was practised for already */
+    uint8_t missed; /* of the newest targets, the newest in bit 0 */
+    struct babble babble;
+    struct progress progress;
 };
 
 /* Arm follows head (section 7.2), or arm reaches under a resting head (section 7.3). */
@@ -61,7 +71,8 @@ struct targets {
     double target[MAX_TARGETS][SPACE_DIMENSIONS]; /* px or m */
     int64_t period;                               /* us */
     int64_t deadline;                             /* us */
-    bool go_to_centre;
+    double start[MAX_JOINTS]; /* where the arm was fixated, or goes to for that; rad */
+    struct practice practice;
     double head_goal[HEAD_JOINTS]; /* rad */
     /* Where the arm that reaches is to be by now (px or m), or the head that turns (rad). */
     double setpoint[SPACE_DIMENSIONS];
@@ -99,6 +110,13 @@ extern const struct behaviour_ops behaviour_babble, behaviour_coordinate, behavi
 const struct behaviour_ops *behaviour_for_request(int8_t kind);
 
 /* Helpers that behaviours share. */
+
+/* Begins to babble between `min` and `max` (rad); `progress->total` samples are wanted. */
+void babble_begin(struct babble *babble, int64_t seed, const double *min, const double *max,
+                  struct progress *progress, struct control *control);
+
+/* One tick of that, however many samples there are; `progress` counts. */
+void babble_run(struct babble *babble, struct progress *progress, struct control *control);
 
 /* Position control of the arm towards `goal` (rad). Returns true when it is there. */
 bool control_arm_to(struct control *control, const double *goal);

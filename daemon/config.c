@@ -103,6 +103,16 @@ static const struct option_row table[] = {
     NUMBER("babble.timeout", babble_timeout, "s", "10", 0.1, 600,
            "time for a move after which the arm fixates where it is"),
 
+    COUNT("practice.samples", practice_samples, "0", 0, 10000,
+          "babbled about where targets were missed, while learning; 0 = never"),
+    COUNT("practice.missed", practice_missed, "2", 1, 4, "of the last 4 targets, after which"),
+    NUMBER("practice.tolerance", practice_tolerance, "px", "5", 0.01, 1000,
+           "distance at the end of its time at which a target counts as missed"),
+    NUMBER("practice.tolerance_position", practice_tolerance_position, "m", "0.01", 1e-6, 10,
+           "the same in a Cartesian task space"),
+    NUMBER("practice.range", practice_range, "deg", "10", 0.1, 360,
+           "how far from where it is a joint babbles then, within babble.min and babble.max"),
+
     NUMBER("explore.noise", explore_noise, "deg/s", "30", 0, 360,
            "random motion of a joint where the model knows nothing"),
     NUMBER("explore.speed", explore_speed, "1/s", "1", 0.01, 100,

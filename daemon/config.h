@@ -42,6 +42,8 @@ struct config {
     struct option_list babble_min_given, babble_max_given; /* rad, may be empty */
     double babble_gain, babble_tolerance, babble_timeout;
 
+    int practice_samples, practice_missed;
+    double practice_tolerance, practice_tolerance_position, practice_range;
     double explore_noise, explore_speed, explore_widen, explore_patience;
     double explore_secondary_gain, explore_tolerance;
 

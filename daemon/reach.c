@@ -1,6 +1,7 @@
 /* Reaching (paper sections 6.2 and 7.3): the head, if there is one, rests, and the arm brings the
  * end-effector to targets in the image or in the ground frame. */
 #include "behaviour.h"
+#include "practice.h"
 #include "targets.h"
 
 #include <reach_status_t.h>
@@ -13,6 +14,8 @@ static bool reach_step(struct behaviour *behaviour, struct control *control)
     double *setpoint = behaviour->targets.setpoint;
     double velocity[SPACE_DIMENSIONS];
 
+    if (practice_step(behaviour, control))
+        return true;
     switch (targets_step(behaviour, control, &target)) {
     case TARGETS_PREPARE:
         memcpy(setpoint, control->sight->carried, sizeof behaviour->targets.setpoint);

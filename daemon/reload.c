@@ -14,6 +14,7 @@ static const char *const live[] = {
     "head.search_velocity",
     "fixation.",
     "babble.",
+    "practice.",
     "explore.",
     "head.search_dwell",
     "task.gain",

@@ -10,13 +10,12 @@ void targets_start(struct behaviour *behaviour, const reach_request_t *request,
 {
     struct targets *targets = &behaviour->targets;
 
-    (void)control;
     targets->n = request->n_targets;
     memcpy(targets->target, request->target, sizeof targets->target);
     targets->period = (int64_t)(request->period * 1e6);
-    targets->go_to_centre = request->count == 1;
+    control_babble_centre(control->config, targets->start);
     behaviour->progress.total = targets->n;
-    behaviour->progress.phase = targets->go_to_centre ? REACH_STATUS_T_MOVE : REACH_STATUS_T_FIXATE;
+    behaviour->progress.phase = request->count == 1 ? REACH_STATUS_T_MOVE : REACH_STATUS_T_FIXATE;
 }
 
 void targets_refixate(struct behaviour *behaviour)
@@ -25,15 +24,20 @@ void targets_refixate(struct behaviour *behaviour)
     behaviour->progress.phase = REACH_STATUS_T_FIXATE;
 }
 
+void targets_restart(struct behaviour *behaviour)
+{
+    behaviour->targets.deadline = 0;
+    behaviour->progress.phase = REACH_STATUS_T_MOVE;
+}
+
 /* The phases before the first target. */
 static void prepare(struct behaviour *behaviour, struct control *control)
 {
     struct progress *progress = &behaviour->progress;
-    double centre[MAX_JOINTS];
+    struct targets *targets = &behaviour->targets;
 
     if (progress->phase == REACH_STATUS_T_MOVE) {
-        control_babble_centre(control->config, centre);
-        if (control_arm_to(control, centre))
+        if (control_arm_to(control, targets->start))
             progress->phase = REACH_STATUS_T_FIXATE;
         control_gaze(control, false);
         return;
@@ -45,6 +49,7 @@ static void prepare(struct behaviour *behaviour, struct control *control)
     if (!sight_fixated(control->sight))
         return;
     control_gather(control, sight_pair_frames(control->config));
+    memcpy(targets->start, control->q, sizeof targets->start);
     progress->phase = REACH_STATUS_T_TRACK;
 }
 

@@ -33,4 +33,8 @@ void targets_slide(double period, double smoothing, const double *target, double
 /* The marker was lost for too long: back to fixation, then on with the present target. */
 void targets_refixate(struct behaviour *behaviour);
 
+/* Back to where the marker was fixated before, which brings the head to where it was, and from
+ * there on with the present target. */
+void targets_restart(struct behaviour *behaviour);
+
 #endif

@@ -34,26 +34,44 @@ START_TEST(the_shipped_configuration_is_the_paper_s_robot)
 }
 END_TEST
 
-START_TEST(the_shipped_configuration_names_every_option)
+/* Options that a file of etc sets. */
+static int options_named(const char *name)
 {
-    const struct option_row *row = config_table();
     char path[512], line[256];
-    int leaves = 0, rows = 0;
+    int leaves = 0;
     FILE *file;
 
-    snprintf(path, sizeof path, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
+    snprintf(path, sizeof path, "%s/etc/%s", getenv("REACH_SOURCE_DIR"), name);
     file = fopen(path, "r");
     ck_assert_ptr_nonnull(file);
-    /* Unknown and doubled names are refused, so as many leaves as rows means all of them. */
     while (fgets(line, sizeof line, file)) {
         const char *colon = strchr(line, ':');
         if (line[0] != '#' && colon && colon[1] == ' ' && colon[strspn(colon + 1, " ") + 1] != '#')
             leaves++;
     }
     fclose(file);
-    for (; row->name; row++)
+    return leaves;
+}
+
+/* The robot's file all of them, but for those of what is off without a file of its own. */
+START_TEST(the_shipped_configuration_names_every_option)
+{
+    int rows = 0, optional = 0;
+
+    for (const struct option_row *row = config_table(); row->name; row++) {
         rows++;
-    ck_assert_int_eq(leaves, rows);
+        optional += strncmp(row->name, "practice.", strlen("practice.")) == 0;
+    }
+    /* Unknown and doubled names are refused, so as many leaves as rows means all of them. */
+    ck_assert_int_eq(options_named("practice.yaml"), optional);
+    ck_assert_int_eq(options_named("kobian.yaml") + optional, rows);
+}
+END_TEST
+
+START_TEST(the_file_of_practice_fits)
+{
+    ck_assert_int_eq(fixture_config(NULL, 0).practice_samples, 0);
+    ck_assert_int_eq(fixture_learner_config("practice.yaml").practice_samples, 12);
 }
 END_TEST
 
@@ -129,6 +147,7 @@ int main(void)
 {
     const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
                                   the_shipped_configuration_names_every_option,
+                                  the_file_of_practice_fits,
                                   the_file_of_receptive_fields_fits,
                                   the_linear_learner_s_file_fits,
                                   the_learner_s_memory_is_bounded,
