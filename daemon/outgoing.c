@@ -62,23 +62,31 @@ static void seal(unsigned char *bytes, size_t covered)
         bytes[covered + (size_t)i] = (unsigned char)(checksum >> (24 - 8 * i));
 }
 
-void outgoing_publish(struct outgoing_messages *messages, struct outgoing *out)
+int outgoing_encode(struct outgoing_messages *messages, struct outgoing *out)
 {
     const lcm_type_info_t *type = messages->type[out->kind];
-    char channel[64];
     int size;
 
     if (out->kind == OUTGOING_TRACE)
         close_tick(messages, &out->trace);
     size = type->encode(messages->bytes, 0, OUTGOING_MOST_BYTES, &out->command);
     if (size < 0)
-        return; /* cannot be: the types are smaller */
+        return size; /* cannot be: the types are smaller */
     if (out->kind == OUTGOING_TRACE)
         seal(messages->bytes, (size_t)size - sizeof(int32_t));
     else
         messages->checksum[out->kind] = incoming_checksum(messages->bytes, (size_t)size);
     if (out->kind == OUTGOING_COMMAND)
         messages->command_seq = out->command.seq;
+    return size;
+}
+
+void outgoing_publish(struct outgoing_messages *messages, struct outgoing *out)
+{
+    int size = outgoing_encode(messages, out);
+    char channel[64];
+
     snprintf(channel, sizeof channel, "%s%s", messages->prefix, channels[out->kind]);
-    lcm_publish(messages->lcm, channel, messages->bytes, (unsigned)size);
+    if (size > 0)
+        lcm_publish(messages->lcm, channel, messages->bytes, (unsigned)size);
 }

@@ -42,7 +42,10 @@ const lcm_type_info_t *outgoing_type(enum outgoing_kind kind);
 /* Sends on `lcm`, which stays the caller's, on channels whose names begin with `prefix`. */
 void outgoing_init(struct outgoing_messages *messages, lcm_t *lcm, const char *prefix);
 
-/* Sends it; a trace with all checksums. */
+/* Encodes it into `bytes`, a trace with all checksums. Returns its size. */
+int outgoing_encode(struct outgoing_messages *messages, struct outgoing *out);
+
+/* Encodes and sends it. */
 void outgoing_publish(struct outgoing_messages *messages, struct outgoing *out);
 
 /* Bytes of an encoded trace that its own checksum is of; the checksum follows them. */
