@@ -34,11 +34,16 @@ struct config fixture_robot_config(const char *robot)
     return load(&robot, 1, NULL, 0);
 }
 
-struct config fixture_learner_config(const char *learner)
+struct config fixture_overlaid_config(const char *robot, const char *overlay)
 {
-    const char *names[] = {"kobian.yaml", learner};
+    const char *names[] = {robot, overlay};
 
     return load(names, 2, NULL, 0);
+}
+
+struct config fixture_learner_config(const char *learner)
+{
+    return fixture_overlaid_config("kobian.yaml", learner);
 }
 
 struct random_state fixture_random(const char *test)

@@ -16,6 +16,9 @@ struct config fixture_robot_config(const char *robot);
 /* etc/kobian.yaml with a file of etc over it, such as "learner-linear.yaml". */
 struct config fixture_learner_config(const char *learner);
 
+/* A robot's file of etc with another over it. */
+struct config fixture_overlaid_config(const char *robot, const char *overlay);
+
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
 struct random_state fixture_random(const char *test);
 

@@ -87,6 +87,16 @@ START_TEST(the_file_of_receptive_fields_fits)
 }
 END_TEST
 
+START_TEST(the_learners_files_of_the_icub_like_robot_fit)
+{
+    struct config fields = fixture_overlaid_config("icub.yaml", "icub-lwpr.yaml");
+    struct config linear = fixture_overlaid_config("icub.yaml", "icub-linear.yaml");
+
+    ck_assert_int_eq(config_learner(&fields).kind, LEARNER_LWPR);
+    ck_assert_int_eq(linear.learner.features, LEARNER_LINEAR);
+}
+END_TEST
+
 START_TEST(the_linear_learner_s_file_fits)
 {
     struct config config = fixture_learner_config("learner-linear.yaml");
@@ -148,6 +158,7 @@ int main(void)
     const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
                                   the_shipped_configuration_names_every_option,
                                   the_file_of_practice_fits,
+                                  the_learners_files_of_the_icub_like_robot_fit,
                                   the_file_of_receptive_fields_fits,
                                   the_linear_learner_s_file_fits,
                                   the_learner_s_memory_is_bounded,
