@@ -95,7 +95,8 @@ install(DIRECTORY etc/robots DESTINATION ${REACH_INSTALLED_ETC} COMPONENT reach-
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT reachd
         PATTERN man EXCLUDE)
 install(FILES etc/systemd/lan.conf DESTINATION ${CMAKE_INSTALL_DOCDIR}/systemd COMPONENT reachd)
-install(DIRECTORY examples/learner DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libreach-dev/examples ${dev})
+install(DIRECTORY examples/learner
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libreach-dev/examples ${dev})
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/reach-tools
         COMPONENT reach-tools PATTERN CMakeLists.txt EXCLUDE PATTERN learner EXCLUDE)
 set(changelog ${CMAKE_BINARY_DIR}/generated/changelog)

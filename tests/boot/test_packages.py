@@ -14,7 +14,7 @@ NAMES = ["libreach-dev", "reach-sim", "reach-tools", "reachd"]
 
 def run(*command) -> str:
     words = [str(word) for word in command]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=110)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=200)
     if done.returncode:
         raise AssertionError(f"{' '.join(words)}: {done.stdout}{done.stderr}")
     return done.stdout
