@@ -160,13 +160,13 @@ class Explore:
 
 ICUB = Explore(
     "icub", "E1", "mm", 1e3, 10.0, (0.002, 0.002),
-    full={"explored": [125, 250, 500, 1000, 2000], "babbled": [125, 250, 500, 1000, 2000],
+    full={"explored": [30, 60, 125, 500, 2000], "babbled": [30, 60, 125, 500, 2000],
           "seconds": 4.0},
     quick={"explored": [125, 500], "babbled": [125, 500], "seconds": 2.0},
 )  # fmt: skip
-# Babbling takes 1.4 s a sample here, exploring 0.04 s: the curve ends where K1's phase does.
+# Babbling takes 1.4 s a sample here, exploring 0.04 s: its curve ends where all is reached.
 KOBIAN = Explore(
     "kobian", "E2", "px", 1.0, 5.0, (0.04, 1.4),
-    full={"explored": [125, 250, 500, 1000, 2000], "babbled": [125, 250, 500], "seconds": 3.0},
+    full={"explored": [10, 20, 50, 200, 2000], "babbled": [10, 20, 50, 200], "seconds": 3.0},
     quick={"explored": [10, 250], "babbled": [10], "seconds": 2.0},
 )  # fmt: skip
