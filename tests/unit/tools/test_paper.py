@@ -18,7 +18,7 @@ import balanced
 import synthetic
 from reach import metrics
 from reach.paper import __main__ as paper
-from reach.paper import k1, kobian, packed, perform, plan, report, track
+from reach.paper import k1, k2, kobian, packed, perform, plan, report, track
 from reach.record import Record
 
 PHASES = ("learn_hand", "test_hand_500", "learn_tool", "test_tool_1000", "test_hand_1000",
@@ -176,6 +176,14 @@ class Report(unittest.TestCase):
     def test_the_noise_floor_is_named_for_each_component(self):
         for component in k1.COMPONENTS:
             self.assertIn(f"K1.s2.{component}_noise_pct", self.rows)
+
+
+class Sizes(unittest.TestCase):
+    def test_every_target_has_time_to_become_steady(self):
+        for quick in (False, True):
+            for learner in plan.LEARNER_NAMES:
+                sizes = kobian.settings(quick, learner)
+                self.assertGreater(sizes["turn_seconds"], k2.STEADY_SECONDS + 0.1)
 
 
 class Arguments(unittest.TestCase):

@@ -24,7 +24,7 @@ _FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2
          "star_seconds": 4.0}  # fmt: skip
 _QUICK = {"hand": 25, "tool": 25, "again": 8, "tests": 5, "turn_seconds": 1.2,
           "star_seconds": 1.5}  # fmt: skip
-_QUICK_RIVAL = {"hand": 12, "tool": 12, "again": 3, "tests": 3, "turn_seconds": 1.0,
+_QUICK_RIVAL = {"hand": 12, "tool": 12, "again": 3, "tests": 3, "turn_seconds": 1.2,
                 "star_seconds": 1.0}  # fmt: skip
 
 
