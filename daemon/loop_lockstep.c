@@ -73,6 +73,7 @@ static void step_lockstep(struct loop *loop)
         due_observations_init(&loop->due); /* the simulator began anew */
     if (!wait_for_observation(loop, due_with(loop, state)))
         return;
+    await_store(loop);
     begin = bus_monotonic_us();
     loop->any_state = true;
     loop->inputs.has_state = true;

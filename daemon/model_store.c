@@ -191,6 +191,13 @@ bool model_store_note(struct model_store *store, const double *z, const double *
     return true;
 }
 
+bool model_store_works(const struct model_store *store)
+{
+    enum stage stage = model_store_stage(store);
+
+    return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED;
+}
+
 static bool begin(struct model_store *store, int number)
 {
     if (!store->ready)

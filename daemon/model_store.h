@@ -55,6 +55,9 @@ bool model_store_note(struct model_store *store, const double *z, const double *
 /* Loop thread: whether model_store_note would return false. */
 bool model_store_full(const struct model_store *store);
 
+/* Loop thread: whether housekeeping is at work on a save or a load. */
+bool model_store_works(const struct model_store *store);
+
 /* Loop thread: start saving or loading. Returns false when the store was busy at the newest poll,
  * or has no directory. */
 bool model_store_begin_save(struct model_store *store, int number);

@@ -83,7 +83,8 @@ void tick_take_recorded_model(struct tick *tick)
 
 bool tick_awaits_store(const struct tick *tick)
 {
-    return training_oldest(&tick->training) && model_store_full(tick->store);
+    return model_store_works(tick->store) ||
+           (training_oldest(&tick->training) && model_store_full(tick->store));
 }
 
 bool tick_learn(struct tick *tick)

@@ -69,7 +69,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
  * for it: learning then waits, control does not. */
 bool tick_learn(struct tick *tick);
 
-/* Whether a sample waits for the store's room. */
+/* Whether a sample waits for the store's room, or a request for a model that is saved or loaded. */
 bool tick_awaits_store(const struct tick *tick);
 
 /* Fills status and trace of the tick just decided. */

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from reach import LateError, Learner, NoAnswerError, RefusedError, RestartedError
 from reach.bus import DEFAULT_URL
+from reach.learner import RESEND_SECONDS
 from reach.messages import ROOT
 from reach.messages import reach as types
 from reach.processes import Processes
@@ -192,7 +193,8 @@ class Requests(Service):
         known = client.statistics
         print(f"{known.requests} of 8000 requests taken, {known.dropped} dropped")
         self.assertGreater(known.requests, 256)  # more than its queue holds
-        self.assertLessEqual(known.requests + known.dropped, 8003)
+        # The client's own two may each have been sent again while the flood was in their way.
+        self.assertLessEqual(known.requests + known.dropped, 8000 + 2 * 20 / RESEND_SECONDS)
 
 
 class Persistence(Service):
