@@ -1,4 +1,5 @@
-"""`./run paper` on very few samples: the real programs fill every row, and are not run twice."""
+"""`./run paper` on very few samples: the real programs fill every row, are not run twice, and come
+to the same where models are saved and loaded in between."""
 
 import contextlib
 import io
@@ -18,10 +19,10 @@ TINY = {"hand": 15, "tool": 15, "again": 3, "tests": 4, "turn_seconds": 2.0,
 
 
 class Live(unittest.TestCase):
-    def call(self, out: Path) -> str:
+    def call(self, out: Path, only: str = "K1,K2,K3,K4") -> str:
         with contextlib.redirect_stderr(io.StringIO()) as said, \
              contextlib.redirect_stdout(io.StringIO()):  # fmt: skip
-            status = paper.main(["--quick", "--learner", "imle", "--only", "K1,K2,K3,K4",
+            status = paper.main(["--quick", "--learner", "imle", "--only", only,
                                  "--out", str(out)])  # fmt: skip
         self.assertEqual(status, 0, said.getvalue())
         return said.getvalue()
@@ -41,6 +42,14 @@ class Live(unittest.TestCase):
             began = time.monotonic()
             self.assertIn("1 runs, 1 of them complete", self.call(out))
             self.assertLess(time.monotonic() - began, 60)
+
+    def test_saving_and_loading_takes_no_time_of_the_disk(self):
+        tables = []
+        for _ in range(2):
+            with tempfile.TemporaryDirectory() as name:
+                self.call(Path(name), "E1")
+                tables.append((Path(name) / "summary.json").read_bytes())
+        self.assertEqual(*tables)
 
 
 if __name__ == "__main__":
