@@ -52,12 +52,16 @@ static int wrong_usage(const char *what)
     return 2;
 }
 
-/* An option that may be repeated. Returns as take_option does. */
-static int add(const char **list, int *n, int most, const char *too_many)
+static int go_on_unless(const char *wrong)
 {
-    if (*n == most)
-        return wrong_usage(too_many);
-    list[(*n)++] = optarg;
+    return wrong ? wrong_usage(wrong) : -1;
+}
+
+static int add_model(struct arguments *arguments)
+{
+    if (arguments->n_models == MAX_MODELS)
+        return wrong_usage("too many --model");
+    arguments->models[arguments->n_models++] = optarg;
     return -1;
 }
 
@@ -90,11 +94,11 @@ static int take_option(struct arguments *arguments, int option)
     }
     switch (option) {
     case 'c':
-        return add(arguments->configs, &arguments->n_configs, MAX_CONFIGS, "too many --config");
+        return go_on_unless(option_sources_add_path(&arguments->configuration, optarg));
     case 's':
-        return add(arguments->overrides, &arguments->n_overrides, MAX_OVERRIDES, "too many --set");
+        return go_on_unless(option_sources_add_override(&arguments->configuration, optarg));
     case OPTION_MODEL:
-        return add(arguments->models, &arguments->n_models, MAX_MODELS, "too many --model");
+        return add_model(arguments);
     case 'u':
         arguments->url = optarg;
         return -1;
@@ -121,7 +125,8 @@ static int check(const struct arguments *arguments)
         return wrong_usage("--verify and --model belong to --replay or --replay-clock");
     if (replays && (arguments->lockstep || arguments->check_model))
         return wrong_usage("--lockstep and --check-model do not go with a replay");
-    if (arguments->n_configs == 0 && (!replays || arguments->n_overrides > 0))
+    if (arguments->configuration.n_paths == 0 &&
+        (!replays || arguments->configuration.n_overrides > 0))
         return wrong_usage("--config is missing");
     return -1;
 }

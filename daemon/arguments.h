@@ -2,16 +2,15 @@
 #ifndef REACH_ARGUMENTS_H
 #define REACH_ARGUMENTS_H
 
+#include "common/option_sources.h"
+
 #include <stdbool.h>
 
-enum { MAX_CONFIGS = 8, MAX_OVERRIDES = 64, MAX_MODELS = 16 };
+enum { MAX_MODELS = 16 };
 
 struct arguments {
-    const char *configs[MAX_CONFIGS];
-    int n_configs;
+    struct option_sources configuration;
     const char *url;
-    const char *overrides[MAX_OVERRIDES];
-    int n_overrides;
     bool lockstep, no_rt, check_model, verbose;
 
     const char *replay; /* a log; NULL = none */

@@ -132,10 +132,10 @@ static void tear_down(struct reachd *reachd)
 
 static struct reload reload_of(const struct reachd *reachd)
 {
-    return (struct reload){.paths = reachd->arguments.configs,
-                           .n_paths = reachd->arguments.n_configs,
-                           .overrides = reachd->arguments.overrides,
-                           .n_overrides = reachd->arguments.n_overrides,
+    return (struct reload){.paths = reachd->arguments.configuration.paths,
+                           .n_paths = reachd->arguments.configuration.n_paths,
+                           .overrides = reachd->arguments.configuration.overrides,
+                           .n_overrides = reachd->arguments.configuration.n_overrides,
                            .accepted = &reachd->config};
 }
 
@@ -214,7 +214,7 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
 {
     const struct arguments *arguments = &reachd->arguments;
     const struct replay_settings settings = {
-        .config = arguments->n_configs > 0 ? &reachd->config : NULL,
+        .config = arguments->configuration.n_paths > 0 ? &reachd->config : NULL,
         .models = arguments->models,
         .n_models = arguments->n_models,
         .verify = arguments->verify,
@@ -232,10 +232,11 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
 {
     const struct arguments *arguments = &reachd->arguments;
 
-    if (arguments->n_configs == 0)
+    if (arguments->configuration.n_paths == 0)
         return 0; /* a replay has the recorded one */
-    return config_load(&reachd->config, arguments->configs, arguments->n_configs,
-                       arguments->overrides, arguments->n_overrides, error, error_size);
+    return config_load(&reachd->config, arguments->configuration.paths,
+                       arguments->configuration.n_paths, arguments->configuration.overrides,
+                       arguments->configuration.n_overrides, error, error_size);
 }
 
 static int work(struct reachd *reachd, char *error, size_t error_size)

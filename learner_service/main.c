@@ -3,6 +3,7 @@
 
 #include "common/bus.h"
 #include "common/log.h"
+#include "common/option_sources.h"
 #include "common/version.h"
 
 #include <getopt.h>
@@ -10,17 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MAX_CONFIGS 8
-#define MAX_OVERRIDES 64
-
 static const int claim_ms = 300; /* time for another service to answer */
 
 struct arguments {
-    const char *configs[MAX_CONFIGS];
-    int n_configs;
+    struct option_sources configuration;
     const char *url;
-    const char *overrides[MAX_OVERRIDES];
-    int n_overrides;
     bool check_model;
 };
 
@@ -48,20 +43,19 @@ static int wrong_usage(const char *what)
     return 2;
 }
 
+static int go_on_unless(const char *wrong)
+{
+    return wrong ? wrong_usage(wrong) : -1;
+}
+
 /* Returns -1 to go on, or an exit status. */
 static int take_option(struct arguments *arguments, int option)
 {
     switch (option) {
     case 'c':
-        if (arguments->n_configs == MAX_CONFIGS)
-            return wrong_usage("too many --config");
-        arguments->configs[arguments->n_configs++] = optarg;
-        return -1;
+        return go_on_unless(option_sources_add_path(&arguments->configuration, optarg));
     case 's':
-        if (arguments->n_overrides == MAX_OVERRIDES)
-            return wrong_usage("too many --set");
-        arguments->overrides[arguments->n_overrides++] = optarg;
-        return -1;
+        return go_on_unless(option_sources_add_override(&arguments->configuration, optarg));
     case 'u':
         arguments->url = optarg;
         return -1;
@@ -104,7 +98,7 @@ static int parse(struct arguments *arguments, int argc, char **argv)
     }
     if (optind < argc)
         return wrong_usage("unexpected argument");
-    if (arguments->n_configs == 0)
+    if (arguments->configuration.n_paths == 0)
         return wrong_usage("--config is missing");
     return -1;
 }
@@ -156,8 +150,9 @@ int main(int argc, char **argv)
     if (status >= 0)
         return status;
     log_open("reach-learner", LOG_LEVEL_INFO);
-    status = settings_load(&settings, arguments.configs, arguments.n_configs, arguments.overrides,
-                           arguments.n_overrides, error, sizeof error) ||
+    status = settings_load(&settings, arguments.configuration.paths,
+                           arguments.configuration.n_paths, arguments.configuration.overrides,
+                           arguments.configuration.n_overrides, error, sizeof error) ||
              (arguments.check_model ? check_model(&settings, error, sizeof error)
                                     : run(&arguments, &settings, error, sizeof error));
     if (status)
