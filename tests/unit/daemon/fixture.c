@@ -1,5 +1,8 @@
 #include "fixture.h"
 
+#include "arena.h"
+#include "tick.h"
+
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,6 +47,17 @@ struct config fixture_overlaid_config(const char *robot, const char *overlay)
 struct config fixture_learner_config(const char *learner)
 {
     return fixture_overlaid_config("kobian.yaml", learner);
+}
+
+struct tick *fixture_tick(const struct config *config, struct arena **arena)
+{
+    char error[256] = "";
+    struct tick *tick;
+
+    *arena = arena_create(tick_memory(config));
+    tick = tick_create(config, *arena, error, sizeof error);
+    ck_assert_msg(tick != NULL, "%s", error);
+    return tick;
 }
 
 struct random_state fixture_random(const char *test)

@@ -7,6 +7,9 @@
 
 #include <stdint.h>
 
+struct arena;
+struct tick;
+
 /* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
 struct config fixture_config(const char *const *overrides, int n_overrides);
 
@@ -18,6 +21,9 @@ struct config fixture_learner_config(const char *learner);
 
 /* A robot's file of etc with another over it. */
 struct config fixture_overlaid_config(const char *robot, const char *overlay);
+
+/* A control step that knows nothing yet, in an arena that the test destroys. */
+struct tick *fixture_tick(const struct config *config, struct arena **arena);
 
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
 struct random_state fixture_random(const char *test);

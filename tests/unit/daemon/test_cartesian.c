@@ -24,12 +24,8 @@ static void step(void)
 
 static void begin(void)
 {
-    char error[256];
-
     config = fixture_robot_config("icub.yaml");
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
-    ck_assert_msg(tick != NULL, "%s", error);
+    tick = fixture_tick(&config, &arena);
     fake_robot_init(&robot, &config);
     robot.noise = 0.0005;
     step();

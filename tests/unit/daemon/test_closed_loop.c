@@ -25,13 +25,9 @@ static struct world world;
 
 static void begin_with(struct config config)
 {
-    char error[256];
-
     memset(&world, 0, sizeof world);
     world.config = config;
-    world.arena = arena_create(tick_memory(&world.config));
-    world.tick = tick_create(&world.config, world.arena, error, sizeof error);
-    ck_assert_msg(world.tick != NULL, "%s", error);
+    world.tick = fixture_tick(&world.config, &world.arena);
     fake_robot_init(&world.robot, &world.config);
     world.robot.noise = 0.3;
 }

@@ -38,12 +38,8 @@ static void step(void)
 
 static void begin(const char *name, double noise)
 {
-    char error[256];
-
     config = fixture_robot_config(name);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
-    ck_assert_msg(tick != NULL, "%s", error);
+    tick = fixture_tick(&config, &arena);
     fake_robot_init(&robot, &config);
     robot.noise = noise;
     for (int axis = 0; axis < 3; axis++) {

@@ -249,14 +249,11 @@ static void come_to_rest(void)
 
 static void begin(void)
 {
-    char error[256];
     struct arena *arena;
 
     chance = fixture_random("test_limits");
     config = fixture_config(NULL, 0);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
-    ck_assert_msg(tick != NULL, "%s", error);
+    tick = fixture_tick(&config, &arena);
     fake_robot_init(&robot, &config);
     robot.random = chance;
     for (int i = 0; i < IN_FLIGHT; i++)

@@ -30,14 +30,10 @@ static void step(void)
 
 static void begin(const char *name, int samples)
 {
-    char error[256];
-
     config = fixture_robot_config(name);
     config.practice_samples = samples;
     config.practice_missed = 1;
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
-    ck_assert_msg(tick != NULL, "%s", error);
+    tick = fixture_tick(&config, &arena);
     fake_robot_init(&robot, &config);
     robot.noise = config.space.fixates ? 0.3 : 0.0005;
     collected = 0;

@@ -17,12 +17,8 @@ static int64_t seq;
 
 static void begin(void)
 {
-    char error[256];
-
     config = fixture_config(NULL, 0);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
-    ck_assert_msg(tick != NULL, "%s", error);
+    tick = fixture_tick(&config, &arena);
     ck_assert_uint_eq(arena_used(arena), tick_memory(&config));
     fake_robot_init(&robot, &config);
     memset(&inputs, 0, sizeof inputs);
