@@ -1,52 +1,22 @@
 /* The control step in a Cartesian task space, on a robot without bodies: it learns while it moves,
  * tells tools apart by where they are measured, and reaches for places in metres. */
-#include "fake_robot.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
-#include "tick.h"
+#include "world.h"
 
 #include <math.h>
 #include <string.h>
 
-static struct config config;
-static struct arena *arena;
-static struct tick *tick;
-static struct fake_robot robot;
-static struct tick_inputs inputs;
-static struct tick_outputs outputs;
-static int64_t request_seq;
-
-static void step(void)
-{
-    fake_robot_tick(&robot, tick, &inputs, &outputs);
-    fake_robot_step(&robot, &outputs.command);
-}
-
 static void begin(void)
 {
-    config = fixture_robot_config("icub.yaml");
-    tick = fixture_tick(&config, &arena);
-    fake_robot_init(&robot, &config);
-    robot.noise = 0.0005;
-    step();
-}
-
-static int ask(reach_request_t request)
-{
-    request.seq = ++request_seq;
-    inputs.request[0] = request;
-    inputs.n_requests = 1;
-    step();
-    return outputs.status.request_result;
+    world_begin(fixture_robot_config("icub.yaml"), 0.0005);
+    world_step();
 }
 
 static void run(reach_request_t request)
 {
-    ck_assert_int_eq(ask(request), REACH_STATUS_T_ACCEPTED);
-    for (int i = 0; outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
-        ck_assert_int_lt(i, 20000);
-        step();
-    }
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    world_finish(20000);
 }
 
 static void babble(int count, int64_t seed)
@@ -59,7 +29,7 @@ static double error_to(const double target[3])
 {
     double position[3], sum = 0;
 
-    fake_robot_position(&robot, position);
+    fake_robot_position(&world.robot, position);
     for (int axis = 0; axis < 3; axis++)
         sum += (position[axis] - target[axis]) * (position[axis] - target[axis]);
     return sqrt(sum);
@@ -70,12 +40,13 @@ static void place_at(const double share[7], double place[3])
 {
     double kept[MAX_JOINTS];
 
-    memcpy(kept, robot.q, sizeof kept);
+    memcpy(kept, world.robot.q, sizeof kept);
     for (int i = 0; i < 7; i++)
-        robot.q[i] = config.arm_min.value[i] +
-                     share[i] * (config.arm_max.value[i] - config.arm_min.value[i]);
-    fake_robot_position(&robot, place);
-    memcpy(robot.q, kept, sizeof kept);
+        world.robot.q[i] =
+            world.config.arm_min.value[i] +
+            share[i] * (world.config.arm_max.value[i] - world.config.arm_min.value[i]);
+    fake_robot_position(&world.robot, place);
+    memcpy(world.robot.q, kept, sizeof kept);
 }
 
 /* Reaches for places all over the middle of the workspace. Returns the largest error, m. */
@@ -102,12 +73,12 @@ START_TEST(every_measurement_on_the_way_is_a_sample)
 {
     begin();
     babble(500, 1);
-    ck_assert_int_eq(outputs.status.progress, 500);
-    ck_assert_int_eq(outputs.status.samples, 500);
-    ck_assert_int_eq(outputs.status.space, REACH_STATUS_T_CARTESIAN);
-    ck_assert_int_eq(outputs.command.n_joints, 7);
-    ck_assert_int_lt(outputs.status.seq, 520);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.progress, 500);
+    ck_assert_int_eq(world.outputs.status.samples, 500);
+    ck_assert_int_eq(world.outputs.status.space, REACH_STATUS_T_CARTESIAN);
+    ck_assert_int_eq(world.outputs.command.n_joints, 7);
+    ck_assert_int_lt(world.outputs.status.seq, 520);
+    world_end();
 }
 END_TEST
 
@@ -119,22 +90,22 @@ START_TEST(it_reaches_with_each_tool_that_it_has_met)
     babble(4000, 1);
     hand = worst_reach(false);
     ck_assert_msg(hand < 0.003, "hand: %g m", hand);
-    robot.tool = 0.28;
+    world.robot.tool = 0.28;
     babble(4000, 2);
-    ck_assert_int_eq(outputs.status.solutions, 2);
+    ck_assert_int_eq(world.outputs.status.solutions, 2);
     tool = worst_reach(false);
     ck_assert_msg(tool < 0.003, "tool: %g m", tool);
-    ck_assert_int_eq(outputs.status.context, 2);
+    ck_assert_int_eq(world.outputs.status.context, 2);
     /* Nothing but the measured place says that it is gone. */
-    robot.tool = 0;
+    world.robot.tool = 0;
     for (int i = 0; i < 50; i++)
-        step();
-    ck_assert_int_eq(outputs.status.context, 1);
+        world_step();
+    ck_assert_int_eq(world.outputs.status.context, 1);
     hand = worst_reach(false);
     ck_assert_msg(hand < 0.003, "hand again: %g m", hand);
-    ck_assert_int_eq(outputs.status.context, 1);
-    ck_assert_int_eq(outputs.status.gated, 0);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.context, 1);
+    ck_assert_int_eq(world.outputs.status.gated, 0);
+    world_end();
 }
 END_TEST
 
@@ -145,14 +116,14 @@ START_TEST(a_tool_is_learned_while_it_reaches)
 
     begin();
     babble(3000, 1);
-    robot.tool = 0.28;
-    before = outputs.status.samples;
+    world.robot.tool = 0.28;
+    before = world.outputs.status.samples;
     worst_reach(true);
-    ck_assert_int_gt(outputs.status.samples, before + 900);
+    ck_assert_int_gt(world.outputs.status.samples, before + 900);
     tool = worst_reach(true);
     ck_assert_msg(tool < 0.01, "%g m", tool);
-    ck_assert_int_eq(outputs.status.contexts, 2);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.contexts, 2);
+    world_end();
 }
 END_TEST
 
@@ -163,13 +134,13 @@ START_TEST(an_arm_that_is_not_measured_holds)
 
     begin();
     babble(500, 1);
-    ck_assert_int_eq(ask(request), REACH_STATUS_T_ACCEPTED);
-    robot.blind = true;
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    world.robot.blind = true;
     for (int i = 0; i < 50; i++)
-        step();
+        world_step();
     for (int i = 0; i < 7; i++)
-        ck_assert_double_eq(outputs.command.velocity[i], 0);
-    arena_destroy(arena);
+        ck_assert_double_eq(world.outputs.command.velocity[i], 0);
+    world_end();
 }
 END_TEST
 
@@ -177,13 +148,13 @@ START_TEST(what_makes_no_sense_here_is_refused)
 {
     begin();
     ck_assert_int_eq(
-        ask((reach_request_t){
+        world_ask((reach_request_t){
             .kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 2, .target = {{120, 0, 0}}}),
         REACH_STATUS_T_REFUSED_VALUE);
-    ck_assert_int_eq(
-        ask((reach_request_t){.kind = REACH_REQUEST_T_COORDINATE, .n_targets = 1, .period = 2}),
-        REACH_STATUS_T_REFUSED_VALUE);
-    arena_destroy(arena);
+    ck_assert_int_eq(world_ask((reach_request_t){
+                         .kind = REACH_REQUEST_T_COORDINATE, .n_targets = 1, .period = 2}),
+                     REACH_STATUS_T_REFUSED_VALUE);
+    world_end();
 }
 END_TEST
 

@@ -1,46 +1,15 @@
 /* The whole control step on a robot without bodies: each loop closed, learning from nothing, with
  * signs that must be right or nothing converges. */
-#include "fake_robot.h"
 #include "fixture.h"
 #include "learner.h"
 #include "tests/unit/suite.h"
-#include "tick.h"
+#include "world.h"
 
 #include <math.h>
 #include <string.h>
 
-struct world {
-    struct config config;
-    struct arena *arena;
-    struct tick *tick;
-    struct fake_robot robot;
-    struct tick_inputs inputs;
-    struct tick_outputs outputs;
-    int64_t request_seq;
-    int samples;
-    double worst_sample; /* error of the newest samples' predictions, degrees */
-};
-
-static struct world world;
-
-static void begin_with(struct config config)
-{
-    memset(&world, 0, sizeof world);
-    world.config = config;
-    world.tick = fixture_tick(&world.config, &world.arena);
-    fake_robot_init(&world.robot, &world.config);
-    world.robot.noise = 0.3;
-}
-
-static void begin(void)
-{
-    begin_with(fixture_config(NULL, 0));
-}
-
-static void end(void)
-{
-    arena_destroy(world.arena);
-}
+static int samples;
+static double worst_sample; /* error of the newest samples' predictions, degrees */
 
 static void check_limits(void)
 {
@@ -51,41 +20,36 @@ static void check_limits(void)
     }
 }
 
-static void step(void)
+static void watch(void)
 {
-    fake_robot_tick(&world.robot, world.tick, &world.inputs, &world.outputs);
-    world.samples += world.outputs.has_sample;
+    samples += world.outputs.has_sample;
     check_limits();
-    fake_robot_step(&world.robot, &world.outputs.command);
+}
+
+static void begin_with(struct config config)
+{
+    world_begin(config, 0.3);
+    world.watch = watch;
+    samples = 0;
+    worst_sample = 0;
+}
+
+static void begin(void)
+{
+    begin_with(fixture_config(NULL, 0));
 }
 
 static void ask(reach_request_t request)
 {
-    request.seq = ++world.request_seq;
-    world.inputs.request[world.inputs.n_requests++] = request;
-    step();
-    ck_assert_int_eq(world.outputs.status.request_seq, request.seq);
-    ck_assert_int_eq(world.outputs.status.request_result, REACH_STATUS_T_ACCEPTED);
-}
-
-static void run_until_done(int seconds)
-{
-    for (int i = 0; i < seconds * 50; i++) {
-        step();
-        if (world.outputs.status.behaviour == REACH_STATUS_T_NONE)
-            return;
-    }
-    ck_abort_msg("not done after %d s: phase %d, %d of %d, %d skipped", seconds,
-                 world.outputs.status.phase, world.outputs.status.progress,
-                 world.outputs.status.progress_total, world.outputs.status.skipped);
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
 }
 
 static void babble(int count, bool learn)
 {
-    step(); /* the supervisor must first know a state */
+    world_step(); /* the supervisor must first know a state */
     ask((reach_request_t){
         .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = 7, .learn = learn});
-    run_until_done(10 * count);
+    world_finish(50 * 10 * count);
     ck_assert_int_eq(world.outputs.status.progress, count);
 }
 
@@ -105,12 +69,12 @@ START_TEST(the_head_fixates)
 
     begin();
     world.robot.q[4] = -0.2;
-    step();
+    world_step();
     ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 1, .seed = 1});
-    run_until_done(10);
+    world_finish(50 * 10);
     fake_robot_image(&world.robot, image);
     ck_assert(fabs(image[0]) < 4 && fabs(image[1]) < 4);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -122,7 +86,7 @@ START_TEST(the_head_searches_what_is_out_of_view)
     world.robot.q[4] = 0.6; /* looks far to the left of it */
     babble(1, true);
     ck_assert_int_eq(world.outputs.status.skipped, 0);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -141,7 +105,7 @@ static void star(double bound)
     for (int i = 0; i < 9 * 250 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
         int done = world.outputs.status.progress;
         double error = done < 9 ? image_error((double[]){u[done], v[done], 20}) : 0;
-        step();
+        world_step();
         if (world.outputs.status.progress > done) {
             ck_assert_msg(error < bound, "target %d: %g px", done, error);
             reached++;
@@ -171,7 +135,7 @@ START_TEST(it_learns_two_tools_and_reaches_with_both)
     star(3);
     expect_context(1, 2);
     ck_assert_int_eq(world.outputs.status.gated, 0);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -184,7 +148,7 @@ START_TEST(linear_experts_do_too)
     star(5);
     world.robot.tool = 0;
     star(5);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -196,7 +160,7 @@ START_TEST(receptive_fields_reach_with_the_hand)
     ck_assert_int_eq(world.outputs.status.solutions, 1);
     star(5);
     ck_assert_int_eq(world.outputs.status.gated, 0);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -207,8 +171,8 @@ START_TEST(a_frozen_model_does_not_change)
     ck_assert_int_eq(world.outputs.status.samples, 30);
     babble(5, false);
     ck_assert_int_eq(world.outputs.status.samples, 30);
-    ck_assert_int_eq(world.samples, 35);
-    end();
+    ck_assert_int_eq(samples, 35);
+    world_end();
 }
 END_TEST
 
@@ -226,7 +190,7 @@ START_TEST(the_arm_follows_the_head)
     ask(request);
     for (int i = 0; i < 3000 && world.outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
         double error[3];
-        step();
+        world_step();
         fake_robot_image(&world.robot, error);
         if (world.outputs.status.phase == REACH_STATUS_T_TRACK)
             worst = fmax(worst, hypot(error[0], error[1]));
@@ -235,7 +199,7 @@ START_TEST(the_arm_follows_the_head)
     ck_assert_int_eq(world.outputs.status.progress, 4);
     ck_assert_msg(worst < 3, "%g px", worst);
     ck_assert(hypot(head[0], head[1]) > 0);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -251,17 +215,17 @@ START_TEST(an_arm_whose_marker_is_hidden_holds)
     babble(60, true);
     ask(request);
     while (world.outputs.status.phase != REACH_STATUS_T_TRACK)
-        step();
+        world_step();
     world.robot.blind = true;
     for (int i = 0; i < 50; i++)
-        step();
+        world_step();
     for (int i = 0; i < 4; i++)
         ck_assert_double_eq(world.outputs.command.velocity[i], 0);
     world.robot.blind = false;
     for (int i = 0; i < 200; i++)
-        step();
+        world_step();
     ck_assert(image_error((double[]){40, 0, 20}) < 3);
-    end();
+    world_end();
 }
 END_TEST
 
@@ -288,15 +252,15 @@ static double early_speed(const char *smoothing)
     babble(60, true);
     ask(request);
     while (world.outputs.status.phase != REACH_STATUS_T_TRACK)
-        step();
+        world_step();
     for (int i = 0; i < 3; i++)
-        step();
+        world_step();
     early = arm_speed();
     for (int i = 0; i < 30; i++) {
-        step();
+        world_step();
         highest = fmax(highest, arm_speed());
     }
-    end();
+    world_end();
     return early / highest;
 }
 

@@ -1,68 +1,48 @@
 /* Reaching from nothing: no babbling, on both kinds of robot, without bodies. */
-#include "fake_robot.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
-#include "tick.h"
+#include "world.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static struct config config;
-static struct arena *arena;
-static struct tick *tick;
-static struct fake_robot robot;
-static struct tick_inputs inputs;
-static struct tick_outputs outputs;
-static int64_t request_seq;
 static double low[MAX_JOINTS], high[MAX_JOINTS]; /* of the joints so far, rad */
 static double least[3], most[3];                 /* of the position so far, m */
 
-static void step(void)
+static void watch(void)
 {
-    fake_robot_tick(&robot, tick, &inputs, &outputs);
-    for (int i = 0; i < config_arm_joints(&config); i++) {
-        low[i] = fmin(low[i], robot.q[i]);
-        high[i] = fmax(high[i], robot.q[i]);
+    for (int i = 0; i < config_arm_joints(&world.config); i++) {
+        low[i] = fmin(low[i], world.robot.q[i]);
+        high[i] = fmax(high[i], world.robot.q[i]);
     }
-    if (config.space.kind == SPACE_CARTESIAN) {
+    if (world.config.space.kind == SPACE_CARTESIAN) {
         double position[3];
-        fake_robot_position(&robot, position);
+        fake_robot_position(&world.robot, position);
         for (int axis = 0; axis < 3; axis++) {
             least[axis] = fmin(least[axis], position[axis]);
             most[axis] = fmax(most[axis], position[axis]);
         }
     }
-    fake_robot_step(&robot, &outputs.command);
 }
 
 static void begin(const char *name, double noise)
 {
-    config = fixture_robot_config(name);
-    tick = fixture_tick(&config, &arena);
-    fake_robot_init(&robot, &config);
-    robot.noise = noise;
+    world_begin(fixture_robot_config(name), noise);
     for (int axis = 0; axis < 3; axis++) {
         least[axis] = INFINITY;
         most[axis] = -INFINITY;
     }
-    memcpy(low, robot.q, sizeof low);
-    memcpy(high, robot.q, sizeof high);
-    step();
+    memcpy(low, world.robot.q, sizeof low);
+    memcpy(high, world.robot.q, sizeof high);
+    world.watch = watch;
+    world_step();
 }
 
 static void run(reach_request_t request, int most_ticks)
 {
-    request.seq = ++request_seq;
-    inputs.request[0] = request;
-    inputs.n_requests = 1;
-    step();
-    ck_assert_int_eq(outputs.status.request_result, REACH_STATUS_T_ACCEPTED);
-    for (int i = 0; outputs.status.behaviour != REACH_STATUS_T_NONE; i++) {
-        ck_assert_msg(i < most_ticks, "%d of %d after %d ticks", outputs.status.progress,
-                      outputs.status.progress_total, i);
-        step();
-    }
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    world_finish(most_ticks);
 }
 
 static void explore(int count, int64_t seed)
@@ -71,16 +51,16 @@ static void explore(int count, int64_t seed)
         .kind = REACH_REQUEST_T_EXPLORE, .count = count, .seed = seed, .learn = 1};
 
     run(request, 10 * count);
-    ck_assert_int_eq(outputs.status.samples, count);
+    ck_assert_int_eq(world.outputs.status.samples, count);
 }
 
 /* What is seen of the end-effector, without noise: px, or m. */
 static void now(double *seen)
 {
-    if (config.space.kind == SPACE_CARTESIAN)
-        fake_robot_position(&robot, seen);
+    if (world.config.space.kind == SPACE_CARTESIAN)
+        fake_robot_position(&world.robot, seen);
     else
-        fake_robot_image(&robot, seen);
+        fake_robot_image(&world.robot, seen);
 }
 
 /* Share of `n` targets, `spread` about the middle of the range, that end within `bound`. */
@@ -115,11 +95,12 @@ START_TEST(it_reaches_in_metres_from_nothing)
         ck_assert_double_gt(most[axis] - least[axis], 0.12);
     /* Also the joints that no place in particular asks for. */
     for (int i = 0; i < 7; i++)
-        ck_assert(high[i] - low[i] > 0.45 * (config.arm_max.value[i] - config.arm_min.value[i]));
+        ck_assert(high[i] - low[i] >
+                  0.45 * (world.config.arm_max.value[i] - world.config.arm_min.value[i]));
     share = reached(20, middle, (double[]){0.05, 0.08, 0.08}, 0.01);
     ck_assert_msg(share >= 0.9, "%g of the targets", share);
-    ck_assert_int_eq(outputs.status.gated, 0);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.gated, 0);
+    world_end();
 }
 END_TEST
 
@@ -131,20 +112,20 @@ START_TEST(it_goes_on_with_a_tool)
     begin("icub.yaml", 0.0005);
     now(middle);
     explore(1500, 3);
-    robot.tool = 0.28;
+    world.robot.tool = 0.28;
     run((reach_request_t){.kind = REACH_REQUEST_T_EXPLORE, .count = 1500, .seed = 4, .learn = 1},
         15000);
-    ck_assert_int_eq(outputs.status.contexts, 2);
+    ck_assert_int_eq(world.outputs.status.contexts, 2);
     middle[0] += 0.05;
     middle[2] += 0.08;
     share = reached(10, middle, (double[]){0.04, 0.06, 0.06}, 0.01);
     ck_assert_msg(share >= 0.9, "%g of the targets", share);
-    robot.tool = 0;
+    world.robot.tool = 0;
     middle[0] -= 0.05;
     middle[2] -= 0.08;
     share = reached(10, middle, (double[]){0.04, 0.06, 0.06}, 0.01);
     ck_assert_msg(share >= 0.9, "%g of the targets with the hand again", share);
-    arena_destroy(arena);
+    world_end();
 }
 END_TEST
 
@@ -156,15 +137,12 @@ static void commands(double gain, double first[3][MAX_JOINTS], double later[MAX_
 
     begin("icub.yaml", 0.0005);
     explore(800, 3);
-    config.explore_secondary_gain = gain;
-    again.seq = ++request_seq;
-    inputs.request[0] = again;
-    inputs.n_requests = 1;
+    world.config.explore_secondary_gain = gain;
     for (int i = 0; i < 100; i++) {
-        step();
-        memcpy(i < 3 ? first[i] : later, outputs.command.velocity, sizeof first[0]);
+        i == 0 ? (void)world_ask(again) : world_step();
+        memcpy(i < 3 ? first[i] : later, world.outputs.command.velocity, sizeof first[0]);
     }
-    arena_destroy(arena);
+    world_end();
 }
 
 /* Until a movement has shown that the model is right, goals draw no joint to a posture: that would
@@ -175,7 +153,7 @@ START_TEST(free_joints_are_drawn_to_postures_only_where_it_knows)
 
     commands(0, first[0], later[0]);
     commands(1, first[1], later[1]);
-    for (int i = 0; i < config_arm_joints(&config); i++) {
+    for (int i = 0; i < config_arm_joints(&world.config); i++) {
         for (int k = 0; k < 3; k++) {
             ck_assert_double_eq(first[0][k][i], first[1][k][i]);
             moved += fabs(first[0][k][i]);
@@ -195,8 +173,8 @@ START_TEST(it_reaches_in_the_image_from_nothing)
     explore(2000, 3);
     share = reached(16, (double[]){0, 0, 20}, (double[]){50, 50, 0}, 5);
     ck_assert_msg(share >= 0.9, "%g of the targets", share);
-    ck_assert_int_eq(outputs.status.gated, 0);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.gated, 0);
+    world_end();
 }
 END_TEST
 

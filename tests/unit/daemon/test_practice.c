@@ -1,10 +1,9 @@
 /* More babbling where reaching is poor, on the robot without bodies: what it buys, and that it
  * stays within its bounds. Prints what it measures. */
-#include "fake_robot.h"
 #include "fixture.h"
 #include "head.h"
 #include "tests/unit/suite.h"
-#include "tick.h"
+#include "world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,50 +11,37 @@
 
 enum { SEEDS = 6, SAMPLES = 3, TARGETS = 16, MOST = 12 };
 
-static struct config config;
-static struct arena *arena;
-static struct tick *tick;
-static struct fake_robot robot;
-static struct tick_inputs inputs;
-static struct tick_outputs outputs;
-static int64_t request_seq;
 static int collected; /* ticks in which it practised */
 
-static void step(void)
+static void watch(void)
 {
-    fake_robot_tick(&robot, tick, &inputs, &outputs);
-    collected += outputs.status.phase == REACH_STATUS_T_COLLECT;
-    fake_robot_step(&robot, &outputs.command);
+    collected += world.outputs.status.phase == REACH_STATUS_T_COLLECT;
 }
 
 static void begin(const char *name, int samples)
 {
-    config = fixture_robot_config(name);
-    config.practice_samples = samples;
-    config.practice_missed = 1;
-    tick = fixture_tick(&config, &arena);
-    fake_robot_init(&robot, &config);
-    robot.noise = config.space.fixates ? 0.3 : 0.0005;
+    struct config with = fixture_robot_config(name);
+
+    with.practice_samples = samples;
+    with.practice_missed = 1;
+    world_begin(with, with.space.fixates ? 0.3 : 0.0005);
+    world.watch = watch;
     collected = 0;
-    step();
+    world_step();
 }
 
 static void ask(reach_request_t request)
 {
-    request.seq = ++request_seq;
-    inputs.request[0] = request;
-    inputs.n_requests = 1;
-    step();
-    ck_assert_int_eq(outputs.status.request_result, REACH_STATUS_T_ACCEPTED);
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
 }
 
 /* One tick of what was asked for, which is not to last for ever. */
 static bool busy(int *ticks)
 {
-    ck_assert_msg(++*ticks < 60000, "%d of %d", outputs.status.progress,
-                  outputs.status.progress_total);
-    step();
-    return outputs.status.behaviour != REACH_STATUS_T_NONE;
+    ck_assert_msg(++*ticks < 60000, "%d of %d", world.outputs.status.progress,
+                  world.outputs.status.progress_total);
+    world_step();
+    return world.outputs.status.behaviour != REACH_STATUS_T_NONE;
 }
 
 static void babble(int count, int64_t seed)
@@ -94,13 +80,13 @@ static int reach(bool learn)
 
     ask(request);
     do {
-        int now = outputs.status.progress;
-        fake_robot_image(&robot, error);
+        int now = world.outputs.status.progress;
+        fake_robot_image(&world.robot, error);
         for (int axis = 0; axis < 3; axis++)
             error[axis] -= request.target[now][axis];
         last[now] = sqrt(error[0] * error[0] + error[1] * error[1] + error[2] * error[2]);
     } while (busy(&ticks));
-    ck_assert_int_eq(outputs.status.progress, TARGETS);
+    ck_assert_int_eq(world.outputs.status.progress, TARGETS);
     for (int i = TARGETS / 2; i < TARGETS; i++)
         reached += last[i] < 5;
     return reached;
@@ -118,10 +104,10 @@ START_TEST(it_reaches_what_it_missed)
             sum[with] += reached;
             printf("seed %d, %d babbled, practice %s: %d of %d reached, %d samples more\n", seed,
                    SAMPLES, with ? "on" : "off", reached, TARGETS / 2,
-                   (int)outputs.status.samples - SAMPLES);
+                   (int)world.outputs.status.samples - SAMPLES);
             ck_assert(with || collected == 0);
-            ck_assert_int_eq(outputs.status.gated, 0);
-            arena_destroy(arena);
+            ck_assert_int_eq(world.outputs.status.gated, 0);
+            world_end();
         }
     printf("all seeds: %d of %d without, %d with\n", sum[0], SEEDS * TARGETS / 2, sum[1]);
     ck_assert_int_ge(sum[1], SEEDS * TARGETS / 2 - 2);
@@ -135,13 +121,13 @@ START_TEST(it_does_not_practise_what_it_can_do_or_may_not_learn)
     babble(80, 1);
     ck_assert_int_eq(reach(true), TARGETS / 2);
     ck_assert_int_eq(collected, 0);
-    arena_destroy(arena);
+    world_end();
     begin("kobian.yaml", MOST);
     babble(SAMPLES, 1);
     reach(false);
     ck_assert_int_eq(collected, 0);
-    ck_assert_int_eq(outputs.status.samples, SAMPLES);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.samples, SAMPLES);
+    world_end();
 }
 END_TEST
 
@@ -156,8 +142,8 @@ START_TEST(the_head_goes_back_to_where_it_was)
     babble(SAMPLES, 1);
     ask(star(true));
     while (busy(&ticks)) {
-        const double *now = robot.q + config_arm_joints(&config);
-        if (outputs.status.phase != REACH_STATUS_T_TRACK)
+        const double *now = world.robot.q + config_arm_joints(&world.config);
+        if (world.outputs.status.phase != REACH_STATUS_T_TRACK)
             continue;
         for (int i = 0; began && i < HEAD_JOINTS; i++)
             ck_assert_double_eq_tol(now[i], head[i], 0.02);
@@ -165,7 +151,7 @@ START_TEST(the_head_goes_back_to_where_it_was)
         began = true;
     }
     ck_assert_int_gt(collected, 0);
-    arena_destroy(arena);
+    world_end();
 }
 END_TEST
 
@@ -177,13 +163,13 @@ START_TEST(it_ends_where_nothing_can_be_fixated)
     babble(SAMPLES, 1);
     ask(star(true));
     while (busy(&ticks)) {
-        robot.blind = outputs.status.phase == REACH_STATUS_T_COLLECT;
-        blind += robot.blind;
+        world.robot.blind = world.outputs.status.phase == REACH_STATUS_T_COLLECT;
+        blind += world.robot.blind;
     }
     ck_assert_int_gt(blind, 0);
-    ck_assert_int_eq(outputs.status.progress, TARGETS);
-    ck_assert_int_lt(outputs.status.samples, SAMPLES + TARGETS);
-    arena_destroy(arena);
+    ck_assert_int_eq(world.outputs.status.progress, TARGETS);
+    ck_assert_int_lt(world.outputs.status.samples, SAMPLES + TARGETS);
+    world_end();
 }
 END_TEST
 
@@ -195,9 +181,9 @@ START_TEST(each_target_is_practised_for_once)
             .kind = REACH_REQUEST_T_REACH, .n_targets = 4, .period = 1, .learn = 1};
         int ticks = 0;
         begin("icub.yaml", MOST);
-        config.practice_tolerance_position = near ? 10 : 1e-9;
+        world.config.practice_tolerance_position = near ? 10 : 1e-9;
         for (int i = 0; i < 4; i++)
-            fake_robot_position(&robot, request.target[i]);
+            fake_robot_position(&world.robot, request.target[i]);
         babble(50, 1);
         collected = 0;
         ask(request);
@@ -206,7 +192,7 @@ START_TEST(each_target_is_practised_for_once)
         ck_assert_int_eq(collected > 0, !near);
         ck_assert_int_le(collected, 4 * (MOST + 1));
         ck_assert(near || collected >= 4 * (MOST - 1));
-        arena_destroy(arena);
+        world_end();
     }
 }
 END_TEST

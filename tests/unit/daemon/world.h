@@ -1,0 +1,38 @@
+/* A robot without bodies and the control step that moves it, from nothing: what the tests of
+ * behaviours share. There is one. */
+#ifndef REACH_TEST_WORLD_H
+#define REACH_TEST_WORLD_H
+
+#include "config.h"
+#include "fake_robot.h"
+#include "tick.h"
+
+#include <stdint.h>
+
+struct world {
+    struct config config;
+    struct arena *arena;
+    struct tick *tick;
+    struct fake_robot robot;
+    struct tick_inputs inputs;
+    struct tick_outputs outputs;
+    int64_t request_seq;
+    void (*watch)(void); /* looks at each decision before the robot obeys it; NULL = nobody */
+};
+
+extern struct world world;
+
+/* `noise` of what is seen, px or m. */
+void world_begin(struct config config, double noise);
+void world_end(void);
+
+/* A tick, and the period after it. */
+void world_step(void);
+
+/* A step with a request. Returns its result, request_result of status_t. */
+int world_ask(reach_request_t request);
+
+/* Steps until the behaviour is over; ends the test when that takes more than so many ticks. */
+void world_finish(int most_ticks);
+
+#endif
