@@ -139,7 +139,10 @@ static void commands(double gain, double first[3][MAX_JOINTS], double later[MAX_
     explore(800, 3);
     world.config.explore_secondary_gain = gain;
     for (int i = 0; i < 100; i++) {
-        i == 0 ? (void)world_ask(again) : world_step();
+        if (i == 0)
+            world_ask(again);
+        else
+            world_step();
         memcpy(i < 3 ? first[i] : later, world.outputs.command.velocity, sizeof first[0]);
     }
     world_end();
