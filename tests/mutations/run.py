@@ -137,15 +137,16 @@ def main() -> int:
     )
     options = parser.parse_args()
     try:
-        mutations = [
-            m for m in read_entries(options.source / "tests/mutations")
-            if (options.all or not m.slow) and options.only in m.name + " " + m.file
-        ]  # fmt: skip
-        for mutation in mutations:
-            check_entry(mutation, options.source)
+        entries = read_entries(options.source / "tests/mutations")
+        for entry in entries:  # also those that are not tried now: the tree has moved on
+            check_entry(entry, options.source)
     except BadEntryError as error:
         print(f"mutations: {error}", file=sys.stderr)
         return 1
+    mutations = [
+        m for m in entries
+        if (options.all or not m.slow) and options.only in m.name + " " + m.file
+    ]  # fmt: skip
     return try_all(Workshop(options.source, options.work), mutations)
 
 
