@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 #include <check.h>
+#include <math.h>
 #include <string.h>
 
 struct world world;
@@ -15,6 +16,7 @@ void world_begin(struct config config, double noise)
     world.tick = fixture_tick(&world.config, &world.arena);
     fake_robot_init(&world.robot, &world.config);
     world.robot.noise = noise;
+    world.inputs.state_age = INFINITY;
 }
 
 void world_end(void)
@@ -24,19 +26,43 @@ void world_end(void)
 
 void world_step(void)
 {
+    world.inputs.state_age = 0;
     fake_robot_tick(&world.robot, world.tick, &world.inputs, &world.outputs);
     if (world.watch)
         world.watch();
     fake_robot_step(&world.robot, &world.outputs.command);
 }
 
-int world_ask(reach_request_t request)
+void world_decide(void)
+{
+    tick_decide(world.tick, &world.inputs, world.robot.now, &world.outputs);
+    tick_report(world.tick, world.robot.now, &world.outputs);
+}
+
+void world_tick(bool with_state)
+{
+    world.inputs.has_state = with_state;
+    if (with_state) {
+        world.inputs.state = fake_robot_state(&world.robot);
+        world.inputs.state_age = 0;
+    }
+    world_decide();
+    world.inputs.n_requests = 0;
+    if (world.outputs.has_command)
+        fake_robot_step(&world.robot, &world.outputs.command);
+}
+
+void world_prepare(reach_request_t request)
 {
     request.seq = ++world.request_seq;
-    world.inputs.request[0] = request;
-    world.inputs.n_requests = 1;
+    world.inputs.request[world.inputs.n_requests++] = request;
+}
+
+int world_ask(reach_request_t request)
+{
+    world_prepare(request);
     world_step();
-    ck_assert_int_eq(world.outputs.status.request_seq, request.seq);
+    ck_assert_int_eq(world.outputs.status.request_seq, world.request_seq);
     return world.outputs.status.request_result;
 }
 

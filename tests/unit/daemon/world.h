@@ -7,6 +7,7 @@
 #include "fake_robot.h"
 #include "tick.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct world {
@@ -22,12 +23,21 @@ struct world {
 
 extern struct world world;
 
-/* `noise` of what is seen, px or m. */
+/* `noise` of what is seen, px or m. No state has come yet. */
 void world_begin(struct config config, double noise);
 void world_end(void);
 
 /* A tick, and the period after it. */
 void world_step(void);
+
+/* A tick on what world.inputs holds, and its report: nothing is learned, and nobody obeys. */
+void world_decide(void);
+
+/* The same with a state of now, or with the last one, and then the robot obeys. */
+void world_tick(bool with_state);
+
+/* A request for the next tick, under a number of its own. */
+void world_prepare(reach_request_t request);
 
 /* A step with a request. Returns its result, request_result of status_t. */
 int world_ask(reach_request_t request);
