@@ -62,9 +62,10 @@ START_TEST(test_fed_only_while_the_loop_advances)
     for (int i = 0; i < 4; i++) /* 400 ms, every 100 ms of 200 */
         ck_assert_str_eq(heard(), "WATCHDOG=1");
     ck_assert_str_eq(heard(), "");
-    for (int i = 0; i < 100; i++, now += 20000)
+    for (int i = 0; i < 100; i++, now += 20000) {
         service_keep(&service, now, 20, false, NULL);
-    ck_assert_str_eq(heard(), "");
+        ck_assert_str_eq(heard(), "");
+    }
     service_keep(&service, now, 21, false, NULL);
     ck_assert_str_eq(heard(), "WATCHDOG=1");
 }
