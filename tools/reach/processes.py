@@ -14,7 +14,7 @@ class ProcessDiedError(Exception):
     """A program of the experiment has ended by itself."""
 
 
-def _die_with_parent() -> None:
+def die_with_parent() -> None:
     """In the child: nothing of ours outlives the experiment, even one killed outright."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
@@ -42,7 +42,7 @@ class Processes:
                 self._running[name] = subprocess.Popen(
                     [str(word) for word in command],
                     stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
-                    start_new_session=True, preexec_fn=_die_with_parent,
+                    start_new_session=True, preexec_fn=die_with_parent,
                 )  # fmt: skip
             except FileNotFoundError:
                 raise ProcessDiedError(f"{command[0]} is missing; ./run build makes it") from None

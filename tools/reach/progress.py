@@ -15,15 +15,16 @@ class Progress:
         self._live = out.isatty()
         self._start = time.monotonic()
         self._last_line = 0.0
-        self._done: set[str] = set()
+        self._shares: dict[str, float] = {}  # of phases that have begun
 
     def update(self, phase: str, share: float, text: str) -> None:
-        """`share` of this phase is done, 0 .. 1."""
+        """`share` of this phase is done, 0 .. 1; others may be under way."""
+        self._shares[phase] = share
         now = time.monotonic()
         if not self._live and now - self._last_line < LINE_SECONDS:
             return
         self._last_line = now
-        line = f"{phase}: {text}, {self._left(phase, share)}"
+        line = f"{phase}: {text}, {self._left()}"
         self._out.write(f"\r{line}\033[K" if self._live else f"{line}\n")
         self._out.flush()
 
@@ -32,15 +33,14 @@ class Progress:
         return Part(self, name)
 
     def finish(self, phase: str, text: str) -> None:
-        self._done.add(phase)
+        self._shares[phase] = 1.0
         clear = "\r\033[K" if self._live else ""
         self._out.write(f"{clear}{phase}: {text}\n")
         self._out.flush()
 
-    def _left(self, phase: str, share: float) -> str:
+    def _left(self) -> str:
         total = sum(self._weights.values())
-        done = sum(self._weights[name] for name in self._done)
-        done += share * self._weights.get(phase, 0.0)
+        done = sum(share * self._weights.get(name, 0.0) for name, share in self._shares.items())
         if done <= 0.01 * total:
             return "time left unknown yet"
         seconds = (time.monotonic() - self._start) * (total - done) / done

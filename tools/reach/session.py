@@ -28,6 +28,11 @@ class Stop:
     def _note(self, *_) -> None:
         self._asked = True
 
+    def release(self) -> None:
+        """From now on a signal interrupts at once."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.default_int_handler)
+
     def check(self) -> None:
         if self._asked:
             raise KeyboardInterrupt

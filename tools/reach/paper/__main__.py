@@ -5,7 +5,7 @@ again while its inputs stay the same. What remains in OUT: report.html, report.p
 """
 
 import argparse
-import signal
+import os
 import sys
 from pathlib import Path
 
@@ -16,11 +16,12 @@ from ..processes import ProcessDiedError
 from ..programs import ROOT
 from ..progress import Progress
 from ..session import Stop
-from . import explore, icub, kobian, perform, report, rows
+from . import explore, icub, jobs, kobian, perform, report, rows
 from .plan import LEARNER_NAMES, Run, is_complete, plan, version
 from .replay import ReplayError
 
 GROUPS = (kobian, icub, explore.ICUB, explore.KOBIAN)
+FAILURES = (ExperimentError, NoAnswerError, ProcessDiedError, ReplayError, OSError)
 EXPERIMENTS = tuple(name for group in GROUPS for name in group.EXPERIMENTS)
 
 
@@ -38,6 +39,8 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     add("--quick", action="store_true", help="few samples and one seed: a smoke check")
     add("--any-version", action="store_true",
         help="keep complete runs of other versions of the programs, too")  # fmt: skip
+    add("--jobs", type=_count, default=len(os.sched_getaffinity(0)), metavar="N",
+        help="runs side by side, each on processors of its own; default one a processor")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/paper", help="folder; default %(default)s")
     options = parser.parse_args(arguments)
     options.seeds = options.seeds or (1 if options.quick else 5)
@@ -64,8 +67,8 @@ def folder_of(options: argparse.Namespace, run: Run) -> Path:
     return options.out / "runs" / run.name
 
 
-def do_missing(options: argparse.Namespace, runs: list[Run]) -> None:
-    """Performs what is not complete."""
+def do_missing(options: argparse.Namespace, runs: list[Run], stop: Stop) -> bool:
+    """Performs what is not complete. False after a failure, of which the user is told."""
     present = version()
     missing = [run for run in runs if not is_complete(folder_of(options, run), run.inputs(present),
                                                       options.any_version)]  # fmt: skip
@@ -74,11 +77,21 @@ def do_missing(options: argparse.Namespace, runs: list[Run]) -> None:
         f"{run.name}/{phase}": seconds
         for run in missing for phase, seconds in run.group.weights(run.settings).items()
     })  # fmt: skip
-    stop = Stop()
-    for run in missing:
-        lacks = perform.perform(run, folder_of(options, run), present, progress, stop)
-        if lacks and run is missing[0]:
-            print(f"paper: {lacks}", file=sys.stderr)
+
+    def task(run: Run, told: jobs.Told) -> str | None:
+        folder = folder_of(options, run)
+        lacks = perform.perform(run, folder, present, told, stop)
+        stop.release()
+        perform.measure(run, folder)  # beside other runs; conclude() finds it done
+        return lacks
+
+    side_by_side = jobs.Jobs(options.jobs, task, FAILURES)
+    failed = side_by_side.do(missing, progress, stop)
+    for remark in sorted(side_by_side.remarks):
+        print(f"paper: {remark}", file=sys.stderr)
+    for name, why in failed.items():
+        print(f"paper: {name}: {why}; complete runs are kept", file=sys.stderr)
+    return not failed
 
 
 def _lost(group, learners: tuple[str, ...]) -> list[rows.Row]:
@@ -121,17 +134,14 @@ def main(arguments: list[str] | None = None) -> int:
     groups = [group for group in GROUPS if set(group.EXPERIMENTS) & set(options.only)]
     runs = plan(groups, options.learner, options.seeds, options.quick)
     options.out.mkdir(parents=True, exist_ok=True)
-    status = 0
+    stop = Stop()
     try:
-        do_missing(options, runs)
+        status = 0 if do_missing(options, runs, stop) else 1
     except KeyboardInterrupt:
         print("\npaper: stopped; the same command goes on with the runs that are missing",
               file=sys.stderr)  # fmt: skip
         status = 130
-    except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
-        print(f"\npaper: {error}; complete runs are kept", file=sys.stderr)
-        status = 1
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+    stop.release()
     try:
         conclude(options, runs)
     except KeyboardInterrupt:

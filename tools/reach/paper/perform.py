@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import recording, summary
 from ..experiment import Experiment
-from ..progress import Progress
+from ..progress import Part
 from ..record import read_log
 from ..session import Stop, session
 from . import packed, rows
@@ -18,7 +18,7 @@ from .plan import Run, described, digest
 _HERE = Path(__file__).parent
 
 
-def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop) -> str | None:
+def perform(run: Run, folder: Path, version: str, progress: Part, stop: Stop) -> str | None:
     """Leaves log, recording and run.json, which is written last and says that the run is complete.
     Returns why there is no recording, or None."""
     shutil.rmtree(folder, ignore_errors=True)
@@ -29,7 +29,7 @@ def perform(run: Run, folder: Path, version: str, progress: Progress, stop: Stop
     with session(
         folder, stop, seed=run.seed, configurations=configurations, **options
     ) as (bus, clock):  # fmt: skip
-        experiment = Experiment(bus, clock, progress.part(run.name), phases)
+        experiment = Experiment(bus, clock, progress, phases)
         run.group.perform(experiment, run.settings, run.seed)
     description = {"group": run.group.NAME, "learner": run.learner, "seed": run.seed,
                    "settings": run.settings, "phases": phases, "inputs": inputs,
