@@ -40,7 +40,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     add("--any-version", action="store_true",
         help="keep complete runs of other versions of the programs, too")  # fmt: skip
     add("--jobs", type=_count, default=len(os.sched_getaffinity(0)), metavar="N",
-        help="runs side by side, each on processors of its own; default one a processor")  # fmt: skip
+        help="runs side by side, on processors of their own; default one a processor")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/paper", help="folder; default %(default)s")
     options = parser.parse_args(arguments)
     options.seeds = options.seeds or (1 if options.quick else 5)
