@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 
 import synthetic
-from reach.paper import drawing, explore, i1, i2, icub, rows, series
+from reach.paper import drawing, explore, i1, i2, icub, rows, series, track
 from reach.record import read_log
 
 SIZES = {"samples": 30, "tests": 30, "cube_seconds": 2.0}
@@ -195,7 +195,7 @@ class FromNothing(unittest.TestCase):
             self.assertEqual([r.id for r in group.rows(("imle",)) if r.id not in numbers], [])
 
     def test_a_target_that_was_never_pursued_is_missed(self):
-        with mock.patch.object(explore.track, "segment", lambda _, __, number: None):
+        with mock.patch.object(track, "segment", lambda _, __, number: None):
             numbers, curves = self.measured(explore.ICUB, 0.0)
         self.assertEqual(numbers["E1.reached_pct"], 0)
         self.assertEqual(curves["explored"]["error_median"][0], np.inf)

@@ -16,13 +16,13 @@ from ..processes import ProcessDiedError
 from ..programs import ROOT
 from ..progress import Progress
 from ..session import Stop
-from . import explore, icub, jobs, kobian, perform, report, rows
-from .plan import LEARNER_NAMES, Run, is_complete, plan, version
+from . import explore, icub, jobs, kobian, perform, practice, report, rows
+from .plan import LEARNER_NAMES, Run, is_complete, learners_of, plan, version
 from .replay import ReplayError
 
-GROUPS = (kobian, icub, explore.ICUB, explore.KOBIAN)
+GROUPS = (kobian, icub, explore.ICUB, explore.KOBIAN, practice.WITHOUT, practice.WITH)
 FAILURES = (ExperimentError, NoAnswerError, ProcessDiedError, ReplayError, OSError)
-EXPERIMENTS = tuple(name for group in GROUPS for name in group.EXPERIMENTS)
+EXPERIMENTS = tuple(dict.fromkeys(name for group in GROUPS for name in group.EXPERIMENTS))
 
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
@@ -68,7 +68,8 @@ def folder_of(options: argparse.Namespace, run: Run) -> Path:
 
 
 def do_missing(options: argparse.Namespace, runs: list[Run], stop: Stop) -> bool:
-    """Performs what is not complete. False after a failure, of which the user is told."""
+    """Performs what is not complete, measures what is not measured. False after a failure, of which
+    the user is told."""
     present = version()
     missing = [run for run in runs if not is_complete(folder_of(options, run), run.inputs(present),
                                                       options.any_version)]  # fmt: skip
@@ -79,14 +80,16 @@ def do_missing(options: argparse.Namespace, runs: list[Run], stop: Stop) -> bool
     })  # fmt: skip
 
     def task(run: Run, told: jobs.Told) -> str | None:
-        folder = folder_of(options, run)
-        lacks = perform.perform(run, folder, present, told, stop)
+        folder, lacks = folder_of(options, run), None
+        if run in missing:
+            lacks = perform.perform(run, folder, present, told, stop)
         stop.release()
-        perform.measure(run, folder)  # beside other runs; conclude() finds it done
+        perform.measure(run, folder)
         return lacks
 
+    todo = [run for run in runs if run in missing or not perform.measured(folder_of(options, run))]
     side_by_side = jobs.Jobs(options.jobs, task, FAILURES)
-    failed = side_by_side.do(missing, progress, stop)
+    failed = side_by_side.do(todo, progress, stop)
     for remark in sorted(side_by_side.remarks):
         print(f"paper: {remark}", file=sys.stderr)
     for name, why in failed.items():
@@ -94,9 +97,15 @@ def do_missing(options: argparse.Namespace, runs: list[Run], stop: Stop) -> bool
     return not failed
 
 
-def _lost(group, learners: tuple[str, ...]) -> list[rows.Row]:
-    lost = [rows.lost(name) for name in group.EXPERIMENTS]
-    return [row for name in learners for row in rows.of_learner(lost, name)]
+def _asked(options: argparse.Namespace) -> list[rows.Row]:
+    """The table's rows, each once."""
+    every: dict[str, rows.Row] = {}
+    for group in GROUPS:
+        learners = learners_of(group, options.learner)
+        lost = [rows.lost(name) for name in group.EXPERIMENTS]
+        own = [row for name in learners for row in rows.of_learner(lost, name)]
+        every |= {row.id: row for row in (*group.rows(learners), *own)}
+    return [row for row in every.values() if row.experiment in options.only]
 
 
 def _gaps(measured: dict[str, dict]) -> list[str]:
@@ -110,10 +119,7 @@ def conclude(options: argparse.Namespace, runs: list[Run]) -> None:
     complete = [run for run in runs if is_complete(folder_of(options, run), run.inputs(present),
                                                    options.any_version)]  # fmt: skip
     measured = {run.name: perform.measure(run, folder_of(options, run)) for run in complete}
-    learners = tuple(options.learner)
-    asked = [row for group in GROUPS for row in (*group.rows(learners), *_lost(group, learners))
-             if row.experiment in options.only]  # fmt: skip
-    table = rows.aggregate(asked, measured.values())
+    table = rows.aggregate(_asked(options), measured.values())
     perform.write_json(options.out / "summary.json", table)
     gaps = _gaps(measured)
     report.write(options.out, table, complete, gaps, options)

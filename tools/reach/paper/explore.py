@@ -124,13 +124,8 @@ class Explore:
         return dict(zip(names, np.array(rows).T, strict=True))
 
     def _errors(self, record: Record, phase: dict) -> np.ndarray:
-        """Final error of each target that counts; infinite where the ball was lost all the time."""
         true = icub.i2.true_track if self.robot == "icub" else summary.true_track
-        errors = []
-        for number, target in enumerate(self.targets()[1:], start=1):
-            span = track.segment(record, phase, number)
-            errors.append(metrics.final_error(*true(record, *span), target) if span else np.inf)
-        return self.per_unit * np.array(errors)
+        return self.per_unit * track.final_errors(record, phase, self.targets(), true)
 
     def rows(self, learners: tuple[str, ...]) -> list[Row]:
         name, unit, within = self.experiment, self.unit, f"{self.within:g} {self.unit}"

@@ -40,15 +40,18 @@ def perform(run: Run, folder: Path, version: str, progress: Part, stop: Stop) ->
     return missing
 
 
+def measured(folder: Path) -> dict | None:
+    """The run's summary.json, unless run or analysis have changed since."""
+    had = _read(folder / "summary.json")
+    good = had and had["analysis"] == _analysis() and had["run"] == digest([folder / "run.json"])
+    return had if good else None
+
+
 def measure(run: Run, folder: Path) -> dict:
     """The run's summary.json, made anew when run or analysis have changed."""
-    code = digest([*sorted(_HERE.glob("*.py")), *(_HERE.parent / name for name in
-                   ("metrics.py", "summary.py", "record.py"))])  # fmt: skip
-    description, kept = described(folder), folder / "summary.json"
-    stamp = digest([folder / "run.json"])
-    had = _read(kept)
-    if had and had["analysis"] == code and had["run"] == stamp:
+    if had := measured(folder):
         return had
+    description = described(folder)
     with packed.unpacked(folder) as path:
         record = read_log(path)
     numbers = run.group.analyse(record, description, folder / "series")
@@ -58,10 +61,16 @@ def measure(run: Run, folder: Path) -> dict:
         "metrics": {key: float(np.float64(value)) for key, value in numbers.items()},
         "robot_seconds": summary.robot_seconds(description),
         "wall": summary.wall(record, description),
-        "run": stamp, "analysis": code,
+        "run": digest([folder / "run.json"]), "analysis": _analysis(),
     })  # fmt: skip
-    write_json(kept, result)
+    write_json(folder / "summary.json", result)
     return result
+
+
+def _analysis() -> str:
+    """What a summary depends on besides the run."""
+    others = (_HERE.parent / name for name in ("metrics.py", "summary.py", "record.py"))
+    return digest([*sorted(_HERE.glob("*.py")), *others])
 
 
 def _read(path: Path) -> dict | None:

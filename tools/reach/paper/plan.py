@@ -20,7 +20,7 @@ LEARNER_NAMES = ("imle", *LEARNERS)  # what ships, published IMLE, LWPR
 
 @dataclass(frozen=True)
 class Run:
-    """`group` is the protocol: the module kobian or icub, or one of explore's."""
+    """`group` is the protocol: the module kobian or icub, or one of explore's or practice's."""
 
     group: Any
     learner: str
@@ -60,8 +60,13 @@ def plan(groups: Iterable[Any], learners: Iterable[str], seeds: int,
         Run(group, learner, seed, quick)
         for seed in range(1, seeds + 1)
         for group in groups
-        for learner in learners
+        for learner in learners_of(group, learners)
     ]
+
+
+def learners_of(group, asked: Iterable[str]) -> tuple[str, ...]:
+    """Those that the group is about: all, where it names none."""
+    return tuple(name for name in asked if name in getattr(group, "LEARNERS", LEARNER_NAMES))
 
 
 def digest(paths: Iterable[Path]) -> str:

@@ -1,10 +1,11 @@
 """The ball's true and measured image while targets are pursued, and the joints meanwhile."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
-from .. import summary
+from .. import metrics, summary
 from ..record import Record
 from . import series
 
@@ -25,6 +26,16 @@ def segment(record: Record, phase: dict, number: int) -> tuple[int, int] | None:
     mine = (status["request_seq"] == phase["request_seq"]) & (status["phase"] == summary.TRACK)
     times = status["utime"][mine & (status["progress"] == number)]
     return (int(times[0]), int(times[-1])) if len(times) > 1 else None
+
+
+def final_errors(record: Record, phase: dict, targets: np.ndarray, true: Callable) -> np.ndarray:
+    """Of each target that counts; infinite where it was never pursued. `true` is the true track
+    from one instant to another, in the targets' unit."""
+    errors = []
+    for number, target in enumerate(targets[len(LEAD_IN) :], start=len(LEAD_IN)):
+        ends = segment(record, phase, number)
+        errors.append(metrics.final_error(*true(record, *ends), target) if ends else np.inf)
+    return np.array(errors)
 
 
 def span(record: Record, phase: dict) -> tuple[int, int]:
