@@ -178,6 +178,20 @@ class Report(unittest.TestCase):
             self.assertIn(f"K1.s2.{component}_noise_pct", self.rows)
 
 
+class Claim(unittest.TestCase):
+    def test_two_do_not_work_in_one_folder(self):
+        with tempfile.TemporaryDirectory() as name:
+            arguments = ["--quick", "--only", "E3", "--learner", "lwpr", "--out", name]
+            with paper.claim(Path(name)), contextlib.redirect_stderr(io.StringIO()) as said, \
+                 mock.patch.object(paper, "work") as work:  # fmt: skip
+                self.assertEqual(paper.main(arguments), 1)
+            self.assertIn(f"is at work in {Path(name).resolve()}", said.getvalue())
+            work.assert_not_called()
+            with mock.patch.object(paper, "work", return_value=0) as work:
+                self.assertEqual(paper.main(arguments), 0)
+            work.assert_called_once()
+
+
 class Sizes(unittest.TestCase):
     def test_every_target_has_time_to_become_steady(self):
         for quick in (False, True):

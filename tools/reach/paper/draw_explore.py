@@ -25,8 +25,9 @@ def shown(experiment: str, robot: str, unit: str, within: float) -> Shown:
         for axis, label in zip(axes[0], labels, strict=True):
             axis.set(xlabel="learned samples", ylabel=label, xscale="log")
         axes[0, 0].set_ylim(-3, 103)
-        axes[0, 1].set_yscale("log")
-        axes[0, 2].set_yscale("log")
+        for axis in axes[0, 1:]:
+            if any((line.get_ydata() > 0).any() for line in axis.lines):  # else there is no scale
+                axis.set_yscale("log")
         legend(figure, axes[0, 0])
         return figure
 
