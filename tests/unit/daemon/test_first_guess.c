@@ -2,7 +2,6 @@
  * on a robot without bodies: places drawn from the whole joint range, few samples and enough of
  * them. Prints what it measures; docs/daemon.md says what follows. */
 #include "fixture.h"
-#include "targets.h"
 #include "tests/unit/suite.h"
 #include "tick_private.h"
 #include "world.h"
@@ -72,44 +71,36 @@ static bool is_far(const struct control *control, const double *target)
     return sqrt(sum) > far_off;
 }
 
-static void move(struct control *control, const double *target, double *setpoint)
+/* What is made of the guess instead of what reaching wants. */
+static void turn_to_guess(struct targets *targets, struct control *control, const double *target)
 {
     const struct config *config = control->config;
     double velocity[SPACE_DIMENSIONS];
 
-    if (use == DRIVE && guessed && is_far(control, target)) {
+    if (use == DRIVE && is_far(control, target)) {
         for (int i = 0; i < config_arm_joints(config); i++)
             control->velocity[i] = config->task_gain * (guess[i] - control->q[i]);
-        memcpy(setpoint, control->sight->carried, sizeof control->sight->carried);
-        return;
-    }
-    targets_slide(config->period, config->task_smoothing, target, setpoint, SPACE_DIMENSIONS);
-    control_approach(control, setpoint, config->task_gain, velocity);
-    if (use == POSTURE && guessed)
+        memcpy(targets->setpoint, control->sight->carried, sizeof targets->setpoint);
+    } else if (use == POSTURE) {
+        control_approach(control, targets->setpoint, config->task_gain, velocity);
         control_task_velocity_by(control, velocity, guess, config->secondary_gain);
-    else
-        control_task_velocity(control, velocity);
+    }
 }
 
-/* Reaching as in reach.c for a robot that measures its end-effector, with the guess. */
 static bool guessing_step(struct behaviour *behaviour, struct control *control)
 {
-    double *setpoint = behaviour->targets.setpoint;
-    const double *target = NULL;
+    struct targets *targets = &behaviour->targets;
+    int64_t deadline = targets->deadline;
 
-    switch (targets_step(behaviour, control, &target)) {
-    case TARGETS_PREPARE:
-        memcpy(setpoint, control->sight->carried, sizeof behaviour->targets.setpoint);
-        return true;
-    case TARGETS_DONE:
+    if (!behaviour_reach.step(behaviour, control))
         return false;
-    case TARGETS_PRESENT:
+    if (behaviour->progress.phase != REACH_STATUS_T_TRACK)
+        return true;
+    const double *target = targets->target[behaviour->progress.done];
+    if (targets->deadline != deadline) /* it was just presented */
         make_guess(control, target);
-        break;
-    default:
-        break;
-    }
-    move(control, target, setpoint);
+    if (guessed)
+        turn_to_guess(targets, control, target);
     return true;
 }
 

@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import synthetic
 from reach.paper import __main__ as paper
-from reach.paper import plan, practice
+from reach.paper import plan, practice, track
 from reach.record import read_log
 
 BOTH = (practice.WITHOUT, practice.WITH)
@@ -29,7 +29,7 @@ class Practice(unittest.TestCase):
     def measured(self, group: practice.Practice, beside: float) -> dict:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            targets = dict.fromkeys(practice.ROUNDS, group.targets())
+            targets = dict.fromkeys(practice.ROUNDS, track.star())
             run = synthetic.make(folder, 5, ("babbled", *practice.ROUNDS), targets, beside)
             return group.analyse(read_log(folder / "run.lcmlog"), run, folder)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import metrics, summary
+from .. import summary
 from ..experiment import Experiment
 from ..record import Record
 from . import draw_explore, icub, kobian, replay, series, track
@@ -72,7 +72,7 @@ class Explore:
         """After a first one that does not count."""
         if self.robot == "icub":
             return np.vstack([icub.i2.start(MIDDLE), icub.i2.targets(MIDDLE)])
-        return np.vstack([track.LEAD_IN, metrics.star_targets()])
+        return track.star()
 
     def perform(self, experiment: Experiment, sizes: dict, seed: int) -> None:
         experiment.save(EMPTY)

@@ -134,4 +134,5 @@ def _enter_network() -> None:
     """This process alone on a loopback of its own; as in tools/netns.sh, which does the rest."""
     if ctypes.CDLL(None, use_errno=True).unshare(_CLONE_NEWNET) != 0:
         raise OSError(ctypes.get_errno(), "cannot make a network namespace")
-    subprocess.run([ROOT / "tools/netns.sh", "--inside", "yes", "true"], check=True)
+    if subprocess.run([ROOT / "tools/netns.sh", "--inside", "yes", "true"]).returncode != 0:
+        raise OSError("no loopback in the run's network namespace, see above")

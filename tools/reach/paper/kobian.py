@@ -96,10 +96,9 @@ def perform(experiment: Experiment, sizes: dict, seed: int) -> None:
 def _reach(experiment: Experiment, sizes: dict, ball: str) -> None:
     """K2 with the model frozen and learning, then K3."""
     turns = np.vstack([track.LEAD_IN, metrics.coordination_targets()])
-    stars = np.vstack([track.LEAD_IN, metrics.star_targets()])
     experiment.coordinate(f"frozen_{ball}", turns, sizes["turn_seconds"], learn=False)
     experiment.coordinate(f"coordinate_{ball}", turns, sizes["turn_seconds"], learn=True)
-    experiment.star(f"star_{ball}", stars, sizes["star_seconds"])
+    experiment.star(f"star_{ball}", track.star(), sizes["star_seconds"])
 
 
 def analyse(record: Record, run: dict, folder: Path) -> dict[str, float]:

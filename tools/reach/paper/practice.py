@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import metrics, summary
+from .. import summary
 from ..demo import BABBLE_SECONDS
 from ..experiment import Experiment
 from ..programs import ROOT
@@ -51,20 +51,16 @@ class Practice:
         return kobian.programs(folder)
 
     def weights(self, sizes: dict) -> dict[str, float]:
-        star = kobian.PREPARE_SECONDS + len(self.targets()) * sizes["seconds"]
+        star = kobian.PREPARE_SECONDS + len(track.star()) * sizes["seconds"]
         return {"babbled": sizes["samples"] * BABBLE_SECONDS, **dict.fromkeys(ROUNDS, star)}
-
-    def targets(self) -> np.ndarray:
-        """After a first one that does not count."""
-        return np.vstack([track.LEAD_IN, metrics.star_targets()])
 
     def perform(self, experiment: Experiment, sizes: dict, seed: int) -> None:
         experiment.babble("babbled", sizes["samples"], seed * 100 + 41, learn=True)
         for name in ROUNDS:
-            experiment.star(name, self.targets(), sizes["seconds"], learn=True)
+            experiment.star(name, track.star(), sizes["seconds"], learn=True)
 
     def analyse(self, record: Record, run: dict, folder: Path) -> dict[str, float]:
-        targets, result = self.targets(), {}
+        targets, result = track.star(), {}
         for name in ROUNDS:
             phase = summary.phase_named(run, name)
             errors = track.final_errors(record, phase, targets, summary.true_track)

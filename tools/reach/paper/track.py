@@ -15,6 +15,11 @@ IMAGE = ("u_right", "v_right", "disparity")
 LEAD_IN = np.zeros((1, 3))  # before the targets that count: the ball comes to disparity 0
 
 
+def star() -> np.ndarray:
+    """The STAR's targets, after the lead-in."""
+    return np.vstack([LEAD_IN, metrics.star_targets()])
+
+
 def segments(record: Record, phase: dict) -> list[tuple[int, int]]:
     """First and last instant of each target that counts; us."""
     return summary.star_segments(record, phase)[len(LEAD_IN) :]
