@@ -66,8 +66,9 @@ struct learner_lwpr_config {
     double add_threshold; /* a projection that leaves less than this share of the error is
                              followed by another, 0 .. 1; 0.5 */
     int max_projections;  /* of a field, 1 .. n_inputs; n_inputs */
-    double init_lambda;   /* forgetting factor of a new projection, 0.99 .. 1; 0.999 */
-    double final_lambda;  /* what it goes to, 0.99 .. 1; 0.99999 */
+    double init_lambda;   /* forgetting factor of a new projection, 1 - 1 / (3 n_inputs) .. 1 and
+                             >= 0.9; 0.999 */
+    double final_lambda;  /* what it goes to, the same range; 0.99999 */
     double tau_lambda;    /* how slowly, 0 .. 1; 0.9999 */
     double init_s2;       /* what a projection's sum of squares begins with, > 0; 1e-10 */
     double norm_out[LEARNER_MAX_OUTPUTS]; /* unit of an output, > 0; 1 */

@@ -32,7 +32,11 @@ struct learner_lwpr_config learner_lwpr_default(int n_inputs)
 static int check(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
+    /* A projection counts after 2 d samples: what is forgotten sooner would never count. */
+    double least_lambda = 1.0 - 1.0 / (3.0 * config->n_inputs);
     const struct learner_range ranges[] = {
+        {"lwpr.init_lambda", p->init_lambda, least_lambda, 1.0},
+        {"lwpr.final_lambda", p->final_lambda, least_lambda, 1.0},
         {"lwpr.w_prune", p->w_prune, p->w_gen, 1.0},
         {"lwpr.cutoff", p->cutoff, 0.0, p->w_gen},
         {"lwpr.max_projections", p->max_projections, 1, config->n_inputs},

@@ -91,12 +91,12 @@ static struct learner_config lwpr_config(double lambda)
 /* The first case is long enough for what is not refreshed to be forgotten down to zero. */
 START_TEST(a_still_robot_breaks_no_receptive_field)
 {
-    const double lambdas[] = {0.99, 0.999, 1.0};
+    const double lambdas[] = {0.9, 0.99, 0.999, 1.0};
     const double offsets[] = {0.0, 100.0, 1000.0};
     const double jitters[] = {0.0, 0.001, 0.1};
 
     bed_seed();
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 4; a++)
         for (int k = 0; k < 3; k++) {
             struct learner_config config = lwpr_config(lambdas[a]);
             config.lwpr.diagonal_only = k != 1;

@@ -57,6 +57,20 @@ START_TEST(every_row_is_checked)
 }
 END_TEST
 
+/* With 5 inputs a projection counts after 10 samples; 0.92 would remember 12.5, 0.94 16.7. */
+START_TEST(what_would_be_forgotten_before_it_counts_is_refused)
+{
+    struct learner_config config = learner_config_default(5, 2);
+
+    config.kind = LEARNER_LWPR;
+    config.lwpr.final_lambda = 0.94;
+    ck_assert_msg(learner_config_check(&config, err, sizeof err) == 0, "%s", err);
+    config.lwpr.final_lambda = 0.92;
+    ck_assert_int_eq(learner_config_check(&config, err, sizeof err), -1);
+    ck_assert_ptr_nonnull(strstr(err, "lwpr.final_lambda"));
+}
+END_TEST
+
 /* A sample that one output would need a new field for is learned by none of them. */
 START_TEST(a_full_learner_keeps_what_it_knows)
 {
@@ -149,6 +163,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         every_row_is_checked,
+        what_would_be_forgotten_before_it_counts_is_refused,
         a_full_learner_keeps_what_it_knows,
         a_loaded_state_goes_on_to_the_same_bytes,
         what_cannot_be_a_state_is_refused_whole,
