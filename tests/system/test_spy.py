@@ -5,7 +5,6 @@ import os
 import re
 import subprocess
 import tempfile
-import threading
 import time
 import unittest
 from difflib import SequenceMatcher
@@ -13,6 +12,7 @@ from pathlib import Path
 
 import lcm
 import screen
+from background import Background
 from reach import programs
 from reach.bus import DEFAULT_URL
 from reach.messages import ROOT, bot_core
@@ -45,21 +45,12 @@ WITHIN = {"image_t", "image_metadata_t"}  # parts of other messages
 TITLE, ROW = 20, 16  # heights in the window, px
 
 
-class Speaker(threading.Thread):
-    """Says all of it on time, until the end of the context."""
+class Speaker(Background):
+    """Says all of it on time."""
 
     def __init__(self):
-        super().__init__(daemon=True)
+        super().__init__()
         self._lcm = lcm.LCM(DEFAULT_URL)
-        self._halt = threading.Event()
-
-    def __enter__(self):
-        self.start()
-        return self
-
-    def __exit__(self, *_):
-        self._halt.set()
-        self.join()
 
     def run(self):
         messages = [(channel, kind().encode(), 20 // rate) for channel, kind, rate in SAID]

@@ -2,31 +2,15 @@
 
 import os
 import subprocess
-import threading
 import time
 from pathlib import Path
 
 import lcm
+from background import Background
 from reach.bus import DEFAULT_URL
 from reach.messages import reach
 
 REACHCTL = Path(os.environ["REACH_BUILD_DIR"]) / "bin/reachctl"
-
-
-class Background(threading.Thread):
-    """Runs while its context lasts: until `_halt` is set."""
-
-    def __init__(self):
-        super().__init__(daemon=True)
-        self._halt = threading.Event()
-
-    def __enter__(self):
-        self.start()
-        return self
-
-    def __exit__(self, *_):
-        self._halt.set()
-        self.join()
 
 
 class Scripted(Background):

@@ -9,9 +9,9 @@ import unittest
 from pathlib import Path
 
 import lcm
+from background import Background
 from reach.bus import DEFAULT_URL
 from reach.messages import ROOT, reach
-from scripted import Background
 
 BINARIES = Path(os.environ["REACH_BUILD_DIR"]) / "bin"
 NETNS = ROOT / "tools/netns.sh"
