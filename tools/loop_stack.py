@@ -209,7 +209,7 @@ def limit() -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n\n")[0])
     parser.add_argument("--verbose", action="store_true", help="print the deepest path")
     options = parser.parse_args()
     folder = ROOT / "build/loop_stack"

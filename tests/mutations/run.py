@@ -126,7 +126,7 @@ class Workshop:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n\n")[0])
     parser.add_argument("--source", type=Path, default=HERE.parent.parent)
     parser.add_argument(
         "--work", type=Path, required=True, help="folder for the copy and its build"
