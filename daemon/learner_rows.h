@@ -79,9 +79,9 @@
           "LWPR: share of the error under which a projection is followed by another"),             \
         X("lwpr.max_projections", OPTION_INT, lwpr.max_projections, 1, LEARNER_MAX_INPUTS, NULL,   \
           "LWPR: most projections of a field; at most the number of inputs"),                      \
-        X("lwpr.init_lambda", OPTION_NUMBER, lwpr.init_lambda, 0.9, 1, NULL,                      \
+        X("lwpr.init_lambda", OPTION_NUMBER, lwpr.init_lambda, 0.9, 1, NULL,                       \
           "LWPR: forgetting factor of a new projection, 1 = none"),                                \
-        X("lwpr.final_lambda", OPTION_NUMBER, lwpr.final_lambda, 0.9, 1, NULL,                    \
+        X("lwpr.final_lambda", OPTION_NUMBER, lwpr.final_lambda, 0.9, 1, NULL,                     \
           "LWPR: forgetting factor in the end"),                                                   \
         X("lwpr.tau_lambda", OPTION_NUMBER, lwpr.tau_lambda, 0, 1, NULL,                           \
           "LWPR: how slowly one goes to the other"),                                               \
