@@ -159,7 +159,7 @@ ICUB = Explore(
           "seconds": 4.0},
     quick={"explored": [125, 500], "babbled": [125, 500], "seconds": 2.0},
 )  # fmt: skip
-# Babbling takes 1.4 s a sample here, exploring 0.04 s: its curve ends where all is reached.
+# Babbling takes 1.7 s a sample here, exploring 0.04 s: its curve ends where all is reached.
 KOBIAN = Explore(
     "kobian", "E2", "px", 1.0, 5.0, (0.04, 1.4),
     full={"explored": [10, 20, 50, 200, 2000], "babbled": [10, 20, 50, 200], "seconds": 3.0},
