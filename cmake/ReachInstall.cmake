@@ -9,7 +9,7 @@ function(reach_manual_page name section component)
   cmake_parse_arguments(P "" "" "DEPENDS;HELP" ${ARGN})
   set(source ${CMAKE_SOURCE_DIR}/docs/man/${name}.${section})
   set(page ${CMAKE_BINARY_DIR}/man/${name}.${section}.gz)
-  set(tools ${CMAKE_SOURCE_DIR}/tools)
+  set(tools ${CMAKE_SOURCE_DIR}/tools/dev)
   add_custom_command(OUTPUT ${page}
     COMMAND ${REACH_BUILD_PYTHON} -B ${tools}/manual.py ${source} ${page} ${bin} ${P_HELP}
     DEPENDS ${source} ${tools}/manual.py ${tools}/reference.py ${P_DEPENDS} VERBATIM)
@@ -37,7 +37,7 @@ function(reach_program name section component)
     set(P_HELP ${bin}/${name})
   endif()
   reach_manual_page(${name} ${section} ${component} DEPENDS ${P_DEPENDS} HELP ${P_HELP})
-  install(FILES tools/completion/reach.bash RENAME ${name} COMPONENT ${component}
+  install(FILES tools/install/completion/reach.bash RENAME ${name} COMPONENT ${component}
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endfunction()
 
@@ -58,15 +58,15 @@ reach_manual_page(reach.yaml  5 reachd DEPENDS reachd reach-vision reach-learner
 set(package ${CMAKE_BINARY_DIR}/package)
 file(GLOB package_sources CONFIGURE_DEPENDS tools/reach/*.py lcmtypes/*.lcm lcmtypes/bot_core/*.lcm)
 add_custom_command(OUTPUT ${package}.stamp
-  COMMAND ${REACH_BUILD_PYTHON} -B ${CMAKE_SOURCE_DIR}/tools/package/wheel_of_reach.py ${package}
+  COMMAND ${REACH_BUILD_PYTHON} -B ${CMAKE_SOURCE_DIR}/tools/install/package/wheel_of_reach.py ${package}
   COMMAND ${CMAKE_COMMAND} -E touch ${package}.stamp
-  DEPENDS ${package_sources} tools/package/wheel_of_reach.py ${REACH_VERSION_FILE} reach_version
+  DEPENDS ${package_sources} tools/install/package/wheel_of_reach.py ${REACH_VERSION_FILE} reach_version
   VERBATIM)
 add_custom_target(reach_python_package ALL DEPENDS ${package}.stamp)
 install(DIRECTORY ${package}/ DESTINATION ${REACH_INSTALLED_PYTHON} COMPONENT reach-tools
         PATTERN __pycache__ EXCLUDE)
 if(REACH_PYTHON) # with numpy, which its --help wants
-  reach_program(reach-export  1 reach-tools SCRIPT tools/package/reach-export
+  reach_program(reach-export  1 reach-tools SCRIPT tools/install/package/reach-export
     DEPENDS ${package}.stamp reach_python_package
     HELP ${CMAKE_COMMAND} -E env PYTHONPATH=${package} ${REACH_PYTHON} -B -m reach.export)
 endif()
@@ -128,12 +128,13 @@ endforeach()
 # the headers, and a real-time program has them in its own locked memory.
 include(CMakePackageConfigHelpers)
 set(cmake_place ${CMAKE_INSTALL_LIBDIR}/cmake/reach)
-set_target_properties(reach_learner PROPERTIES EXPORT_NAME learner)
+set_target_properties(learner PROPERTIES EXPORT_NAME learner)
 set_target_properties(reach_lcmtypes PROPERTIES EXPORT_NAME lcmtypes)
-install(TARGETS reach_learner reach_lcmtypes EXPORT reach
+install(TARGETS learner reach_lcmtypes EXPORT reach
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${dev})
-install(FILES daemon/learner.h daemon/arena.h
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reach ${dev})
+install(FILES learner/learner.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reach ${dev})
+install(FILES common/base/arena.h # where learner.h includes it from
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reach/common/base ${dev})
 install(DIRECTORY ${CMAKE_BINARY_DIR}/lcmtypes/c/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reach/lcmtypes ${dev} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY lcmtypes DESTINATION ${CMAKE_INSTALL_DATADIR}/reach ${dev}

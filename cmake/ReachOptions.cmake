@@ -36,3 +36,12 @@ target_compile_options(reach_warnings INTERFACE
 
 # Python with the packages of requirements.txt: ./run setup makes it.
 find_program(REACH_PYTHON python NAMES python3 PATHS ${CMAKE_SOURCE_DIR}/.venv/bin NO_DEFAULT_PATH)
+
+# reach_room(target SOURCES a.c ... [LIBS x ...] [PRIVATE y ...]): the sources of one folder. They are
+# objects that the folder above gathers into its library; LIBS reach whoever includes their headers.
+function(reach_room target)
+  cmake_parse_arguments(R "" "" "SOURCES;LIBS;PRIVATE" ${ARGN})
+  add_library(${target} OBJECT ${R_SOURCES})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
+  target_link_libraries(${target} PUBLIC ${R_LIBS} PRIVATE ${R_PRIVATE} reach_warnings)
+endfunction()

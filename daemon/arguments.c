@@ -1,9 +1,9 @@
-#include "arguments.h"
+#include "daemon/arguments.h"
 
-#include "config.h"
+#include "daemon/config/config.h"
 
-#include "common/bus.h"
-#include "common/version.h"
+#include "common/bus/open.h"
+#include "common/program/version.h"
 
 #include <getopt.h>
 #include <stdio.h>

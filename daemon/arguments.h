@@ -2,7 +2,7 @@
 #ifndef REACH_ARGUMENTS_H
 #define REACH_ARGUMENTS_H
 
-#include "common/option_sources.h"
+#include "common/options/command_line.h"
 
 #include <stdbool.h>
 

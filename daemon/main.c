@@ -1,18 +1,18 @@
 /* reachd: options, and the order of start and end. */
-#include "arena.h"
-#include "arguments.h"
-#include "config.h"
-#include "daemon_bus.h"
-#include "house.h"
-#include "keeper.h"
-#include "loop.h"
-#include "loop_replay.h"
-#include "realtime.h"
-#include "tick.h"
-#include "watchdog.h"
+#include "common/base/arena.h"
+#include "common/base/thread.h"
+#include "daemon/arguments.h"
+#include "daemon/bus/bus.h"
+#include "daemon/config/config.h"
+#include "daemon/control/tick.h"
+#include "daemon/housekeeping.h"
+#include "daemon/realtime/loop.h"
+#include "daemon/realtime/watchdog.h"
+#include "daemon/replay/player.h"
+#include "learner/store/keeper.h"
 
-#include "common/bus.h"
-#include "common/log.h"
+#include "common/bus/open.h"
+#include "common/program/log.h"
 
 #include <reach_hello_t.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-#include "reload.h"
+#include "daemon/reload.h"
 
-#include "common/log.h"
+#include "common/program/log.h"
 
 #include <stdio.h>
 #include <string.h>

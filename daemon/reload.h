@@ -5,8 +5,8 @@
 #ifndef REACH_RELOAD_H
 #define REACH_RELOAD_H
 
-#include "config.h"
-#include "loop.h"
+#include "daemon/config/config.h"
+#include "daemon/realtime/loop.h"
 
 #include <stdbool.h>
 

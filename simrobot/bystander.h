@@ -2,7 +2,7 @@
 #ifndef SIMROBOT_BYSTANDER_H
 #define SIMROBOT_BYSTANDER_H
 
-#include "simrobot/simulation.h"
+#include "simrobot/world/simulation.h"
 
 namespace sim
 {

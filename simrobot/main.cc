@@ -4,16 +4,16 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "common/bus.h"
-#include "common/log.h"
-#include "common/notify.h"
-#include "common/version.h"
+#include "common/bus/open.h"
+#include "common/program/log.h"
+#include "common/program/notify.h"
+#include "common/program/version.h"
 #include "simrobot/command_line.h"
-#include "simrobot/egl_context.h"
-#include "simrobot/eye_tasks.h"
-#include "simrobot/eye_thread.h"
-#include "simrobot/lockstep.h"
-#include "simrobot/realtime.h"
+#include "simrobot/eyes/egl_context.h"
+#include "simrobot/eyes/eye_thread.h"
+#include "simrobot/run/clock_lockstep.h"
+#include "simrobot/run/clock_realtime.h"
+#include "simrobot/tasks.h"
 
 namespace
 {

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 
-#include "common/version.h"
+#include "common/program/version.h"
 #include "vision/config.h"
 
 static const char usage[] =

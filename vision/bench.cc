@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
-#include "common/log.h"
-#include "vision/show.h"
-#include "vision/statistics.h"
+#include "common/program/log.h"
+#include "vision/answers/show.h"
+#include "vision/answers/statistics.h"
 
 static const int rounds = 500;
 static const int64_t period = 33000; /* us between the stamps */

@@ -2,7 +2,7 @@
 #ifndef VISION_BENCH_H
 #define VISION_BENCH_H
 
-#include "vision/eyes.h"
+#include "vision/ball/eyes.h"
 
 /* `path` is a picture of both eyes side by side, left eye left. Prints the marker and the times of
  * whole pictures and of windows; with `drawing` also writes the picture with what was found.

@@ -1,6 +1,6 @@
 #include "vision/config.h"
 
-#include "common/options.h"
+#include "common/options/options.h"
 
 #define AT(field) offsetof(vision_config, field)
 #define NUMBER(name, field, unit, initial, low, high, help)                                        \

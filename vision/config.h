@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 
-#include "vision/eyes.h"
+#include "vision/ball/eyes.h"
 
 /* One field for each row of the option table in config.cc; units and meaning stand there. */
 struct vision_config {

@@ -10,15 +10,15 @@
 #include <cstring>
 #include <memory>
 
-#include "common/bus.h"
-#include "common/log.h"
-#include "common/notify.h"
+#include "common/bus/open.h"
+#include "common/program/log.h"
+#include "common/program/notify.h"
+#include "vision/answers/observer.h"
+#include "vision/answers/show.h"
 #include "vision/arguments.h"
 #include "vision/bench.h"
 #include "vision/config.h"
-#include "vision/observer.h"
-#include "vision/receive_buffer.h"
-#include "vision/show.h"
+#include "vision/pictures/receive_buffer.h"
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;

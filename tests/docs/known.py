@@ -12,8 +12,8 @@ import reference
 SOURCE = Path(os.environ["REACH_SOURCE_DIR"])
 BUILD = Path(os.environ["REACH_BUILD_DIR"])
 # Where files of the project lie; what a build or a run leaves behind is none of them.
-FOLDERS = ("common", "daemon", "docs", "etc", "examples", "lcmtypes", "simrobot", "tests", "tools",
-           "vision", "cmake")  # fmt: skip
+FOLDERS = ("common", "daemon", "docs", "etc", "examples", "lcmtypes", "learner", "simrobot",
+           "tests", "tools", "vision", "cmake")  # fmt: skip
 
 
 @functools.cache

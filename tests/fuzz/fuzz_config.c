@@ -1,7 +1,7 @@
 /* The daemon's configuration. What is taken is whole: a second reading gives the same. */
-#include "config.h"
+#include "daemon/config/config.h"
+#include "daemon/config/sizes.h"
 #include "harness.h"
-#include "sizes.h"
 
 #include <string.h>
 

@@ -1,11 +1,11 @@
 /* Everything that the daemon hears: its message handlers, and the control step on what they let
  * through. Whatever comes, commands are finite and within the limits of the safety gate. */
-#include "common/bus.h"
-#include "config.h"
-#include "daemon_bus.h"
+#include "common/bus/open.h"
+#include "daemon/bus/bus.h"
+#include "daemon/config/config.h"
+#include "daemon/control/tick.h"
 #include "fake_lcm.h"
 #include "harness.h"
-#include "tick.h"
 
 #include <math.h>
 #include <reach_end_effector_t.h>

@@ -1,7 +1,7 @@
 /* What vision hears: a pair of pictures, taken apart and decoded, every pixel looked at. */
 #include "harness.h"
-#include "vision/decode.h"
-#include "vision/image_message.h"
+#include "vision/pictures/decode.h"
+#include "vision/pictures/image_message.h"
 
 static void look(const encoded_image &from)
 {

@@ -1,7 +1,7 @@
 /* A journal of learned samples. Samples come in order, and a refusal has a reason. */
 #include "harness.h"
-#include "journal.h"
-#include "model_file.h"
+#include "learner/store/journal.h"
+#include "learner/store/model_file.h"
 
 #include <string.h>
 

@@ -1,10 +1,10 @@
 /* Everything that reach-learner hears, and what it makes of it: whatever comes, an answer is
  * addressed to who asked, a prediction counts no more solutions than it holds, and only what was
  * accepted was learned. */
-#include "daemon/model_store.h"
 #include "fake_lcm.h"
 #include "harness.h"
-#include "learner_service/service_bus.h"
+#include "learner/service/bus.h"
+#include "learner/store/store.h"
 
 #include <stdio.h>
 

@@ -1,9 +1,9 @@
 /* A model: the file with its checks, and the learner's bytes without, since a checksum would keep
  * nearly all damage from the code behind it. What is taken predicts, learns and is saved again. */
-#include "arena.h"
+#include "common/base/arena.h"
 #include "harness.h"
-#include "learner.h"
-#include "model_file.h"
+#include "learner/learner.h"
+#include "learner/store/model_file.h"
 
 #include <string.h>
 

@@ -1,10 +1,10 @@
 /* A log that is to be replayed: as it is, and with its checksums made right again, so that what was
  * damaged gets as far as the control step. What comes out is finite, and a refusal has a reason. */
-#include "event_log.h"
+#include "daemon/bus/incoming.h"
+#include "daemon/bus/outgoing.h"
+#include "daemon/replay/event_log.h"
+#include "daemon/replay/player.h"
 #include "harness.h"
-#include "incoming.h"
-#include "loop_replay.h"
-#include "outgoing.h"
 
 #include <math.h>
 #include <reach_config_t.h>

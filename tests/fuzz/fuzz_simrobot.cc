@@ -5,7 +5,7 @@
 
 #include "fake_lcm.h"
 #include "harness.h"
-#include "simrobot/sim_bus.h"
+#include "simrobot/run/bus.h"
 
 namespace
 {

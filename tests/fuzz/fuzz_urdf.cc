@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "harness.h"
-#include "simrobot/description.h"
+#include "simrobot/setup/description.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -127,13 +127,18 @@ class Arithmetic(unittest.TestCase):
     def test_no_decision_depends_on_the_c_library(self):
         """It chooses its code by the processor. Checks at start and durations may use it."""
         archives = [
-            programs.BINARIES.parent / f"daemon/lib{n}.a" for n in ("reachd_core", "reach_learner")
+            programs.BINARIES.parent / n
+            for n in (
+                "common/base/libcommon_base.a",
+                "daemon/libdaemon.a",
+                "learner/libreach_learner.a",
+            )
         ]
         said = subprocess.run(["nm", "-A", "--undefined-only", *archives], check=True,
                               capture_output=True, text=True).stdout  # fmt: skip
-        self.assertRegex(said, r"timing\.c\.o: +U log\n")
+        self.assertRegex(said, r"durations\.c\.o: +U log\n")
         users = re.findall(rf":(\w+)\.cc?\.o: +U (?:{'|'.join(INEXACT)})\n", said)
-        self.assertEqual(set(users), {"config_check", "timing"})
+        self.assertEqual(set(users), {"check", "durations"})
 
 
 if __name__ == "__main__":

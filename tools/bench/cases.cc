@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tools/eval/etc_directory.h"
-#include "tools/eval/learner_options.h"
+#include "tools/measure/etc_directory.h"
+#include "tools/measure/learner_options.h"
 
 namespace
 {

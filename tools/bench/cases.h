@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 
 struct Case {
     std::string kind; // "linear", "cubic", "quartic": what an expert is; "tick": the daemon

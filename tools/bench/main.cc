@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/version.h"
+#include "common/program/version.h"
 #include "tools/bench/cases.h"
 #include "tools/bench/measure.h"
-#include "tools/eval/json.h"
-#include "tools/eval/output_file.h"
+#include "tools/measure/json.h"
+#include "tools/measure/output_file.h"
 
 namespace
 {

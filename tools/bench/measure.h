@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tools/bench/cases.h"
-#include "tools/eval/durations.h"
+#include "tools/measure/durations.h"
 
 // One call of one case. A rival that does not take part has no summary.
 struct Row {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/version.h"
+#include "common/program/version.h"
 #include "tools/bench/tick.h"
 
 static const char usage[] =

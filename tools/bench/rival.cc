@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "daemon/arena.h"
-#include "tests/oracle/parameters_of.h"
-#include "tests/oracle/recursive_imle.h"
+#include "common/base/arena.h"
+#include "tools/bench/reference/parameters_of.h"
+#include "tools/bench/reference/recursive_imle.h"
 
 namespace
 {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 
 class Rival
 {

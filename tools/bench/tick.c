@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "daemon/random.h"
-#include "daemon/tick.h"
-#include "daemon/tick_private.h"
-#include "tests/unit/daemon/fake_robot.h"
-#include "tools/eval/etc_directory.h"
+#include "common/base/random.h"
+#include "daemon/control/tick.h"
+#include "daemon/control/tick_private.h"
+#include "tools/bench/fake_robot.h"
+#include "tools/measure/etc_directory.h"
 
 enum { MOST_SAMPLES = 200000, SAMPLES_PER_TOOL = 2000 };
 

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "tools/eval/durations.h"
+#include "tools/measure/durations.h"
 
 #ifdef __cplusplus
 extern "C" {

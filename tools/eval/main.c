@@ -5,13 +5,13 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "daemon/arena.h"
+#include "common/base/arena.h"
 #include "tools/eval/csv.h"
-#include "tools/eval/learner_options.h"
 #include "tools/eval/model_file.h"
-#include "tools/eval/output_file.h"
 #include "tools/eval/report.h"
 #include "tools/eval/request.h"
+#include "tools/measure/learner_options.h"
+#include "tools/measure/output_file.h"
 
 enum { EXIT_USAGE = 2 };
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "tools/eval/output_file.h"
+#include "tools/measure/output_file.h"
 
 static int fail(const char *path, const char *reason, char *error, size_t error_size)
 {

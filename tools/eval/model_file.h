@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 
 /* Both return 0, or -1 with "path: reason" in `error`; a load that fails leaves the learner as it
  * was, a save that fails leaves the file as it was. */

@@ -1,8 +1,8 @@
 #include "tools/eval/report.h"
 
-#include "common/version.h"
-#include "tools/eval/json.h"
-#include "tools/eval/learner_options.h"
+#include "common/program/version.h"
+#include "tools/measure/json.h"
+#include "tools/measure/learner_options.h"
 
 static void durations_to_json(const struct durations_summary *d, const char *key, struct json *json)
 {

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/version.h"
-#include "tools/eval/learner_options.h"
+#include "common/program/version.h"
+#include "tools/measure/learner_options.h"
 
 static const char usage[] =
     "usage: reach-eval --learner KIND --inputs d --outputs D [--config FILE] [--param NAME=VALUE "

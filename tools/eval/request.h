@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 
 enum {
     REQUEST_MOST = 64,         /* of each thing that may be given repeatedly */

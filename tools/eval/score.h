@@ -5,9 +5,9 @@
 
 #include <stddef.h>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 #include "tools/eval/csv.h"
-#include "tools/eval/durations.h"
+#include "tools/measure/durations.h"
 
 /* Root of the mean squared error of each output, and the mean of these. NaN without any answer. */
 struct score_rmse {

@@ -5,5 +5,5 @@ import subprocess
 from .messages import ROOT
 
 VERSION = subprocess.run(
-    [ROOT / "tools/version.sh"], stdout=subprocess.PIPE, text=True, check=True
+    [ROOT / "tools/dev/version.sh"], stdout=subprocess.PIPE, text=True, check=True
 ).stdout.strip()

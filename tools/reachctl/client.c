@@ -1,7 +1,7 @@
 #include "tools/reachctl/client.h"
 
-#include "common/bus.h"
-#include "common/status_words.h"
+#include "common/bus/open.h"
+#include "common/bus/status_words.h"
 #include "tools/reachctl/show.h"
 
 #include <lcm/lcm.h>

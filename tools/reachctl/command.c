@@ -1,6 +1,6 @@
 #include "tools/reachctl/command.h"
 
-#include "tools/reachctl/targets.h"
+#include "tools/reachctl/target_list.h"
 
 #include <limits.h>
 #include <math.h>

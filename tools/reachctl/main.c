@@ -1,8 +1,8 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
-#include "common/version.h"
+#include "common/program/version.h"
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
-#include "tools/reachctl/doctor.h"
+#include "tools/reachctl/doctor/doctor.h"
 #include "tools/reachctl/show.h"
 #include "tools/reachctl/top.h"
 

@@ -1,6 +1,6 @@
 #include "tools/reachctl/show.h"
 
-#include "common/status_words.h"
+#include "common/bus/status_words.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 #include "tools/reachctl/top.h"
 
-#include "common/bus.h"
+#include "common/bus/open.h"
 #include "tools/reachctl/terminal.h"
 #include "tools/reachctl/top_view.h"
 

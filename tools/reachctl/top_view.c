@@ -1,6 +1,6 @@
 #include "tools/reachctl/top_view.h"
 
-#include "common/status_words.h"
+#include "common/bus/status_words.h"
 #include "tools/reachctl/show.h"
 
 #include <math.h>

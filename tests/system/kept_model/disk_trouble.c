@@ -3,7 +3,7 @@
  * disk_trouble REACHD CONFIG */
 #include "trial.h"
 
-#include "common/bus.h"
+#include "common/bus/open.h"
 
 #include <fcntl.h>
 #include <sched.h>

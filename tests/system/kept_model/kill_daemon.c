@@ -2,11 +2,11 @@
  * times. After each kill the model on disk must have every sample that a status had counted as
  * stored, and the hash that an uninterrupted learner has at its number of samples.
  *   usage: kill_daemon REACHD CONFIG KILLS [SEED] */
+#include "common/base/random.h"
 #include "killer.h"
-#include "random.h"
 #include "trial.h"
 
-#include "common/bus.h"
+#include "common/bus/open.h"
 
 #include <signal.h>
 #include <stdio.h>

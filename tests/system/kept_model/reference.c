@@ -1,6 +1,6 @@
 #include "reference.h"
 
-#include "model_file.h"
+#include "learner/store/model_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

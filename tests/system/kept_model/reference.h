@@ -3,7 +3,7 @@
 #ifndef REACH_TEST_REFERENCE_H
 #define REACH_TEST_REFERENCE_H
 
-#include "config.h"
+#include "daemon/config/config.h"
 
 #include <reach_sample_t.h>
 #include <stdbool.h>

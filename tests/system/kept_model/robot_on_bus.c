@@ -1,6 +1,6 @@
 #include "robot_on_bus.h"
 
-#include "common/bus.h"
+#include "common/bus/open.h"
 
 #include <reach_marker_t.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #ifndef REACH_TEST_ROBOT_ON_BUS_H
 #define REACH_TEST_ROBOT_ON_BUS_H
 
-#include "fake_robot.h"
+#include "tools/bench/fake_robot.h"
 
 #include <lcm/lcm.h>
 #include <reach_request_t.h>

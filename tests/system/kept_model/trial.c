@@ -1,6 +1,6 @@
 #include "trial.h"
 
-#include "common/bus.h"
+#include "common/bus/open.h"
 
 #include <stdio.h>
 #include <stdlib.h>

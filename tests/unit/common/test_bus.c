@@ -1,5 +1,5 @@
 /* Opening the bus, and two programs that want the same role. Runs in its own network namespace. */
-#include "common/bus.h"
+#include "common/bus/open.h"
 #include "tests/unit/suite.h"
 
 #include <pthread.h>

@@ -1,5 +1,5 @@
 /* What a user without a multicast route is told. Runs in a network namespace without one. */
-#include "common/bus.h"
+#include "common/bus/open.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The manager's side of the protocol is played here: a datagram socket in a folder of our own. */
-#include "common/notify.h"
+#include "common/program/notify.h"
 
-#include "../suite.h"
+#include "tests/unit/suite.h"
 
 #include <errno.h>
 #include <stdio.h>

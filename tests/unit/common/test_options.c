@@ -1,5 +1,5 @@
 /* The option table: what is stored, and what each kind of mistake is answered with. */
-#include "common/options.h"
+#include "common/options/options.h"
 #include "tests/unit/suite.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Damaged YAML never crashes the reader, and every refusal comes with a reason. */
-#include "common/options.h"
+#include "common/options/options.h"
 #include "tests/unit/suite.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 
 #include <check.h>
 #include <math.h>

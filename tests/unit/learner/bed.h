@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "daemon/learner.h"
+#include "learner/learner.h"
 
 #ifdef __cplusplus
 extern "C" {

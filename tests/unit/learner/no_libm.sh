@@ -9,6 +9,6 @@ grep -qx memcpy <<<"$undefined" || {
 }
 if grep -xE '(exp|expm1|exp2|log|log1p|log2|log10|pow|cbrt|hypot|lgamma|lgamma_r|tgamma|sin|cos|sincos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|erf|erfc|fma)f?' \
     <<<"$undefined"; then
-    echo "the learner must use daemon/elementary.h instead"
+    echo "the learner must use common/base/elementary.h instead"
     exit 1
 fi

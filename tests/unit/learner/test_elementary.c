@@ -1,10 +1,10 @@
 /* Our exp, log and gamma functions against the C library's in long double. */
-#include "daemon/elementary.h"
+#include "common/base/elementary.h"
 
 #include <check.h>
 #include <stdio.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 enum { POINTS = 400000 };

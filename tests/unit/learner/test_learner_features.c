@@ -1,8 +1,8 @@
 /* Feature maps: how many, what they are, and their derivative against finite differences. */
 #include <math.h>
 
-#include "daemon/feature_map.h"
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
+#include "learner/features/feature_map.h"
 #include "tests/unit/suite.h"
 
 static double phi[FEATURE_MAP_MAX], up[FEATURE_MAP_MAX], down[FEATURE_MAP_MAX];

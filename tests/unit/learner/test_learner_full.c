@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 enum { INPUTS = 4, OUTPUTS = 3, CALLS = 600, QUERIES = 300 };

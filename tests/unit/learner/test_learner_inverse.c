@@ -1,7 +1,7 @@
 /* Inputs that give a wanted output, checked by predicting forward again. */
 #include <math.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 static struct learner_prediction forward;

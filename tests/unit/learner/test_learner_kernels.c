@@ -1,13 +1,13 @@
 /* Every vector width gives the same bytes: what is learned, and what is predicted from it. Widths
  * that the machine lacks are said and left out. */
-#include "daemon/kernels.h"
+#include "learner/kernels/kernels.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 enum { WIDTHS = LEARNER_KERNELS_AVX512 + 1, INPUTS = 5, OUTPUTS = 3 };

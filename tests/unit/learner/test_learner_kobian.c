@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 enum { HAND = 150, ALL = 300, QUERIES = 100, SEEDS = 5, MOMENTS = 6 };

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "daemon/imle_triangle.h"
-#include "daemon/imle_whitener.h"
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
+#include "learner/imle/triangle.h"
+#include "learner/imle/whitener.h"
 #include "tests/unit/suite.h"
 
 static struct learner_prediction prediction;

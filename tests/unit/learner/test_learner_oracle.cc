@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/oracle/parameters_of.h"
-#include "tests/oracle/textbook_imle.h"
+#include "tools/bench/reference/parameters_of.h"
+#include "tools/bench/reference/textbook_imle.h"
 /* After the C++ headers: Check takes the word `fail`. */
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 namespace

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 static struct learner_prediction here, there;

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "daemon/lwpr_private.h"
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
+#include "learner/lwpr/lwpr.h"
 #include "tests/unit/suite.h"
 
 enum { SAMPLES = 40 };

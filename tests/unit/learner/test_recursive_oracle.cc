@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/oracle/recursive_imle.h"
+#include "tools/bench/reference/recursive_imle.h"
 /* After the C++ headers: Check takes the word `fail`. */
-#include "tests/unit/learner/bed.h"
+#include "bed.h"
 #include "tests/unit/suite.h"
 
 namespace

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "simrobot/simulation.h"
+#include "simrobot/world/simulation.h"
 
 /* After all others: it defines `fail`, a word that the standard library uses. */
 #include <check.h>

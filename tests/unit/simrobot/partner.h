@@ -6,8 +6,8 @@
 #include <functional>
 #include <thread>
 
-#include "simrobot/eye_thread.h"
-#include "simrobot/lockstep.h"
+#include "simrobot/eyes/eye_thread.h"
+#include "simrobot/run/clock_lockstep.h"
 
 #include "fixture.h"
 

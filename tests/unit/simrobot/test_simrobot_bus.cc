@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "partner.h"
-#include "suite.h"
+#include "tests/unit/suite.h"
 
 namespace
 {

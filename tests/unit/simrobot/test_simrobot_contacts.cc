@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "fixture.h"
-#include "suite.h"
+#include "tests/unit/suite.h"
 
 namespace
 {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "fixture.h"
-#include "simrobot/light.h"
-#include "simrobot/mounts.h"
-#include "simrobot/sensor.h"
-#include "suite.h"
+#include "simrobot/disturbances/light.h"
+#include "simrobot/disturbances/mounts.h"
+#include "simrobot/eyes/sensor.h"
+#include "tests/unit/suite.h"
 
 using fixture::degree;
 

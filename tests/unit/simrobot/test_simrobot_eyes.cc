@@ -10,11 +10,11 @@
 #include <cstring>
 
 #include "fixture.h"
-#include "simrobot/image_message.h"
-#include "simrobot/renderer.h"
-#include "simrobot/sensor.h"
-#include "simrobot/visibility.h"
-#include "suite.h"
+#include "simrobot/eyes/image_message.h"
+#include "simrobot/eyes/renderer.h"
+#include "simrobot/eyes/sensor.h"
+#include "simrobot/world/visibility.h"
+#include "tests/unit/suite.h"
 
 using fixture::degree;
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "fixture.h"
-#include "simrobot/visibility.h"
-#include "suite.h"
+#include "simrobot/world/visibility.h"
+#include "tests/unit/suite.h"
 
 using fixture::degree;
 

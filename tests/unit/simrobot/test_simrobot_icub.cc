@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fixture.h"
-#include "suite.h"
+#include "tests/unit/suite.h"
 
 using fixture::degree;
 

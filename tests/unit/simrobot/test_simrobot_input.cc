@@ -2,8 +2,8 @@
 #include <cstring>
 
 #include "fixture.h"
-#include "simrobot/exposures.h"
-#include "suite.h"
+#include "simrobot/eyes/exposures.h"
+#include "tests/unit/suite.h"
 
 using fixture::replaced;
 using fixture::shipped_urdf;

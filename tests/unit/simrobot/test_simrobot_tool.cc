@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "fixture.h"
-#include "suite.h"
+#include "tests/unit/suite.h"
 
 namespace
 {

@@ -1,5 +1,5 @@
 /* Times and their quantiles. */
-#include "tools/eval/durations.h"
+#include "tools/measure/durations.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-"""tools/loop_stack.py finds what must not be in the loop's call graph."""
+"""tools/dev/loop_stack.py finds what must not be in the loop's call graph."""
 
 import sys
 import tempfile
@@ -7,14 +7,14 @@ from pathlib import Path
 
 from reach.messages import ROOT
 
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(ROOT / "tools/dev"))
 import loop_stack
 
 GOOD = """graph: { title: "loop.c"
-node: { title: "daemon/loop.c:run" label: "run\\nloop.c:1:1\\n100 bytes (static)" }
+node: { title: "daemon/realtime/loop.c:run" label: "run\\nloop.c:1:1\\n100 bytes (static)" }
 node: { title: "step" label: "step\\ntick.c:1:1\\n4000 bytes (static)" }
 node: { title: "memcpy" label: "memcpy\\n<built-in>" shape : ellipse }
-edge: { sourcename: "daemon/loop.c:run" targetname: "step" label: "loop.c:2:2" }
+edge: { sourcename: "daemon/realtime/loop.c:run" targetname: "step" label: "loop.c:2:2" }
 edge: { sourcename: "step" targetname: "memcpy" label: "tick.c:2:2" }
 """
 
@@ -43,7 +43,9 @@ class LoopStack(unittest.TestCase):
         self.assertEqual(proof.depth, 100 + 4000 + loop_stack.LIBRARY_STACK)
 
     def test_recursion(self):
-        self.assert_finds(edge("step", "daemon/loop.c:run"), "recursion: .*run -> step -> .*run")
+        self.assert_finds(
+            edge("step", "daemon/realtime/loop.c:run"), "recursion: .*run -> step -> .*run"
+        )
 
     def test_allocation(self):
         self.assert_finds(edge("step", "malloc"), "step -> malloc: not for the loop")

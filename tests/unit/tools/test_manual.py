@@ -1,4 +1,4 @@
-"""tools/manual.py: a help becomes a page, and nothing of it is lost."""
+"""tools/dev/manual.py: a help becomes a page, and nothing of it is lost."""
 
 import tempfile
 import unittest

@@ -1,6 +1,6 @@
 /* LCM's packets as they come from the socket, well-formed and not. */
 #include "tests/unit/suite.h"
-#include "tools/reachctl/packet.h"
+#include "tools/reachctl/doctor/packet.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -13,8 +13,8 @@ SOURCE = Path(os.environ["REACH_SOURCE_DIR"])
 
 
 def fields_of(struct: str, prefix: str = "") -> set[str]:
-    """The fields of a struct in daemon/learner.h; those of a struct in it as "outer.inner"."""
-    header = re.sub(r"/\*.*?\*/", "", (SOURCE / "daemon/learner.h").read_text(), flags=re.S)
+    """The fields of a struct in learner/learner.h; those of a struct in it as "outer.inner"."""
+    header = re.sub(r"/\*.*?\*/", "", (SOURCE / "learner/learner.h").read_text(), flags=re.S)
     body = re.search(rf"struct {struct} \{{(.*?)\n\}};", header, re.S).group(1)
     fields = set()
     for kind, name in re.findall(r"([\w ]+?) (\w+)(?:\[\w+\])?;", body):

@@ -1,4 +1,4 @@
-"""tools/version.sh in a repository, in a copy without one, and in an archive of git's."""
+"""tools/dev/version.sh in a repository, in a copy without one, and in an archive of git's."""
 
 import os
 import shutil
@@ -17,7 +17,7 @@ def run(*command, cwd: Path | None = None) -> str:
 
 
 def version(tree: Path, *file) -> str:
-    return run(tree / "tools/version.sh", *file)
+    return run(tree / "tools/dev/version.sh", *file)
 
 
 class Version(unittest.TestCase):
@@ -25,8 +25,8 @@ class Version(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.tree = Path(folder.name).resolve() / "tree"
-        (self.tree / "tools").mkdir(parents=True)
-        shutil.copy(SOURCE / "tools/version.sh", self.tree / "tools")
+        (self.tree / "tools/dev").mkdir(parents=True)
+        shutil.copy(SOURCE / "tools/dev/version.sh", self.tree / "tools/dev")
         shutil.copy(SOURCE / ".gitattributes", self.tree)
         (self.tree / "CMakeLists.txt").write_text("project(reachd VERSION 1.2.3 LANGUAGES C)\n")
         self.git("init", "-q")

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scene.h"
-#include "vision/eyes.h"
-#include "vision/image_message.h"
+#include "vision/ball/eyes.h"
+#include "vision/pictures/image_message.h"
 
 /* The seed of a randomised test: $REACH_TEST_SEED, else this one; printed. */
 uint64_t fixture_seed(uint64_t usual);

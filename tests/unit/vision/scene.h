@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "vision/camera.h"
-#include "vision/image.h"
+#include "vision/ball/camera.h"
+#include "vision/ball/image.h"
 
 struct scene_sphere {
     direction centre; /* m, axes of the common frame between the eyes */

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "fixture.h"
-#include "vision/statistics.h"
+#include "vision/answers/statistics.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
 #include "tests/unit/suite.h"

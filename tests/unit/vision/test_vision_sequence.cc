@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/bus.h"
-#include "common/log.h"
+#include "common/bus/open.h"
+#include "common/program/log.h"
 #include "fixture.h"
-#include "vision/observer.h"
+#include "vision/answers/observer.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
 #include "tests/unit/suite.h"

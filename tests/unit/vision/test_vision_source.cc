@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fixture.h"
-#include "vision/source.h"
+#include "vision/pictures/source.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
 #include "tests/unit/suite.h"

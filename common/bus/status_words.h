@@ -1,0 +1,12 @@
+/* The words for what a status_t holds as numbers. */
+#ifndef REACH_COMMON_BUS_STATUS_WORDS_H
+#define REACH_COMMON_BUS_STATUS_WORDS_H
+
+/* Each takes the field of that name; "unknown" for a number that has no word. */
+const char *status_state_word(int state);
+const char *status_fault_word(int fault);
+const char *status_behaviour_word(int behaviour);
+const char *status_phase_word(int phase);
+const char *status_result_word(int request_result);
+
+#endif

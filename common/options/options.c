@@ -1,0 +1,311 @@
+#include "common/options/options.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OPTION_MAX_ROWS 256
+
+static const double radians_per_degree = 3.14159265358979323846 / 180.0;
+
+const char option_preset[] = "preset";
+
+const struct option_row *option_find(const struct option_row *table, const char *name)
+{
+    for (; table->name; table++)
+        if (strcmp(table->name, name) == 0)
+            return table;
+    return NULL;
+}
+
+/* The one place where degrees end. */
+double option_unit_factor(const struct option_row *row)
+{
+    return row->unit && strncmp(row->unit, "deg", 3) == 0 ? radians_per_degree : 1.0;
+}
+
+static int parse_number(const struct option_row *row, const char *text, double *value, char *error,
+                        size_t error_size)
+{
+    char *end;
+    double number;
+
+    if (strcmp(text, ".inf") == 0) /* YAML's infinity */
+        text = "inf";
+    number = strtod(text, &end);
+    if (end == text || *end || isnan(number)) {
+        snprintf(error, error_size, "'%s' is not a number", text);
+        return -1;
+    }
+    if ((row->minimum != 0 || row->maximum != 0) &&
+        (number < row->minimum || number > row->maximum)) {
+        snprintf(error, error_size, "%s is out of range %g .. %g%s%s", text, row->minimum,
+                 row->maximum, row->unit ? " " : "", row->unit ? row->unit : "");
+        return -1;
+    }
+    *value = number;
+    return 0;
+}
+
+static int set_int(const struct option_row *row, int *field, const char *text, char *error,
+                   size_t error_size)
+{
+    double number;
+
+    if (parse_number(row, text, &number, error, error_size))
+        return -1;
+    if (number != floor(number) || fabs(number) > 2147483647.0) {
+        snprintf(error, error_size, "'%s' is not a whole number", text);
+        return -1;
+    }
+    *field = (int)number;
+    return 0;
+}
+
+static int set_bool(bool *field, const char *text, char *error, size_t error_size)
+{
+    if (strcmp(text, "true") == 0 || strcmp(text, "yes") == 0) {
+        *field = true;
+    } else if (strcmp(text, "false") == 0 || strcmp(text, "no") == 0) {
+        *field = false;
+    } else {
+        snprintf(error, error_size, "'%s' is neither true nor false", text);
+        return -1;
+    }
+    return 0;
+}
+
+static int set_text(char *field, const char *text, char *error, size_t error_size)
+{
+    if (strlen(text) >= OPTION_MAX_TEXT) {
+        snprintf(error, error_size, "text is longer than %d characters", OPTION_MAX_TEXT - 1);
+        return -1;
+    }
+    memcpy(field, text, strlen(text) + 1);
+    return 0;
+}
+
+static int set_choice(const struct option_row *row, int *field, const char *text, char *error,
+                      size_t error_size)
+{
+    const char *word = row->choices;
+    size_t length = strlen(text);
+
+    for (int index = 0; word; index++) {
+        const char *bar = strchr(word, '|');
+        size_t word_length = bar ? (size_t)(bar - word) : strlen(word);
+        if (word_length == length && strncmp(word, text, length) == 0) {
+            *field = index;
+            return 0;
+        }
+        word = bar ? bar + 1 : NULL;
+    }
+    snprintf(error, error_size, "'%s' is not one of %s", text, row->choices);
+    return -1;
+}
+
+static int set_list(const struct option_row *row, struct option_list *field,
+                    const char *const *items, int n_items, char *error, size_t error_size)
+{
+    if (n_items > OPTION_MAX_LIST) {
+        snprintf(error, error_size, "list is longer than %d", OPTION_MAX_LIST);
+        return -1;
+    }
+    memset(field, 0, sizeof *field);
+    for (int i = 0; i < n_items; i++) {
+        if (parse_number(row, items[i], &field->value[i], error, error_size))
+            return -1;
+        field->value[i] *= option_unit_factor(row);
+    }
+    field->n = n_items;
+    return 0;
+}
+
+int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
+               bool is_list, char *error, size_t error_size)
+{
+    char *field = (char *)target + row->offset;
+
+    if (row->type != OPTION_SPREAD && is_list != (row->type == OPTION_LIST)) {
+        snprintf(error, error_size,
+                 is_list ? "a single value is wanted, not a list" : "a list [a, b, ...] is wanted");
+        return -1;
+    }
+    switch (row->type) {
+    case OPTION_BOOL:
+        return set_bool((bool *)(void *)field, items[0], error, error_size);
+    case OPTION_INT:
+        return set_int(row, (int *)(void *)field, items[0], error, error_size);
+    case OPTION_NUMBER:
+        if (parse_number(row, items[0], (double *)(void *)field, error, error_size))
+            return -1;
+        *(double *)(void *)field *= option_unit_factor(row);
+        return 0;
+    case OPTION_LIST:
+    case OPTION_SPREAD:
+        return set_list(row, (struct option_list *)(void *)field, items, n_items, error,
+                        error_size);
+    case OPTION_TEXT:
+        return set_text(field, items[0], error, error_size);
+    case OPTION_CHOICE:
+        return set_choice(row, (int *)(void *)field, items[0], error, error_size);
+    }
+    return -1;
+}
+
+/* What is being filled, and which rows already have a value from the present source. */
+struct loading {
+    const struct option_row *table;
+    void *target;
+    bool given[OPTION_MAX_ROWS];
+    bool seen_in_file[OPTION_MAX_ROWS];
+};
+
+static int apply_to_table(void *user, const char *name, const char *const *items, int n_items,
+                          bool is_list, char *error, size_t error_size)
+{
+    struct loading *loading = (struct loading *)user;
+    const struct option_row *row = option_find(loading->table, name);
+    ptrdiff_t index;
+
+    if (!row) {
+        snprintf(error, error_size, "unknown option; --help-options lists them all");
+        return -1;
+    }
+    index = row - loading->table;
+    if (loading->seen_in_file[index]) {
+        snprintf(error, error_size, "given twice");
+        return -1;
+    }
+    loading->seen_in_file[index] = true;
+    loading->given[index] = true;
+    return option_set(row, loading->target, items, n_items, is_list, error, error_size);
+}
+
+/* Reads "name: value" as YAML, so that defaults and overrides follow the file's own syntax. */
+static int apply_text(struct loading *loading, const char *origin, const char *name,
+                      const char *value, char *error, size_t error_size)
+{
+    char text[2 * OPTION_MAX_TEXT + 64];
+    FILE *stream;
+    int result;
+    int length = snprintf(text, sizeof text, "%s: %s\n", name, value);
+
+    if (length < 0 || length >= (int)sizeof text) {
+        snprintf(error, error_size, "%s: %s: value is too long", origin, name);
+        return -1;
+    }
+    stream = fmemopen(text, (size_t)length, "r");
+    if (!stream) {
+        snprintf(error, error_size, "%s: %s", origin, strerror(errno));
+        return -1;
+    }
+    result = options_read_yaml(origin, stream, apply_to_table, loading, error, error_size);
+    fclose(stream);
+    return result;
+}
+
+static int apply_defaults(struct loading *loading, char *error, size_t error_size)
+{
+    for (const struct option_row *row = loading->table; row->name; row++)
+        if (row->initial == option_preset)
+            loading->given[row - loading->table] = true;
+        else if (row->initial &&
+                 apply_text(loading, "default", row->name, row->initial, error, error_size))
+            return -1;
+    return 0;
+}
+
+static int apply_file(struct loading *loading, const char *path, char *error, size_t error_size)
+{
+    FILE *file = fopen(path, "r");
+    int result;
+
+    if (!file) {
+        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+        return -1;
+    }
+    result = options_read_yaml(path, file, apply_to_table, loading, error, error_size);
+    fclose(file);
+    return result;
+}
+
+static int apply_overrides(struct loading *loading, const char *option,
+                           const char *const *overrides, int n_overrides, char *error,
+                           size_t error_size)
+{
+    char name[OPTION_MAX_TEXT];
+
+    for (int i = 0; i < n_overrides; i++) {
+        const char *equals = strchr(overrides[i], '=');
+        if (!equals || (size_t)(equals - overrides[i]) >= sizeof name) {
+            snprintf(error, error_size, "%s '%s': name=value is wanted", option, overrides[i]);
+            return -1;
+        }
+        memcpy(name, overrides[i], (size_t)(equals - overrides[i]));
+        name[equals - overrides[i]] = '\0';
+        memset(loading->seen_in_file, 0, sizeof loading->seen_in_file);
+        if (apply_text(loading, option, name, equals + 1, error, error_size))
+            return -1;
+    }
+    return 0;
+}
+
+int options_load(const struct option_row *table, void *target, const char *const *paths,
+                 int n_paths, const char *const *overrides, int n_overrides, char *error,
+                 size_t error_size)
+{
+    return options_load_as(table, target, paths, n_paths, "--set", overrides, n_overrides, error,
+                           error_size);
+}
+
+static int load(const struct option_row *table, void *target, const char *const *paths, int n_paths,
+                const char *override_option, const char *const *overrides, int n_overrides,
+                char *error, size_t error_size)
+{
+    struct loading loading = {.table = table, .target = target};
+    const struct option_row *row;
+
+    for (row = table; row->name; row++)
+        if (row - table >= OPTION_MAX_ROWS - 1) {
+            snprintf(error, error_size, "more than %d options", OPTION_MAX_ROWS);
+            return -1;
+        }
+    if (apply_defaults(&loading, error, error_size))
+        return -1;
+    for (int i = 0; i < n_paths; i++) {
+        memset(loading.seen_in_file, 0, sizeof loading.seen_in_file);
+        if (apply_file(&loading, paths[i], error, error_size))
+            return -1;
+    }
+    if (apply_overrides(&loading, override_option, overrides, n_overrides, error, error_size))
+        return -1;
+    for (row = table; row->name; row++)
+        if (!loading.given[row - table]) {
+            snprintf(error, error_size, "%s: %s must be given (%s)",
+                     n_paths > 0 ? paths[0] : "options", row->name, row->help);
+            return -1;
+        }
+    return 0;
+}
+
+/* What a file holds may be in the message, and then it may not break the line, nor a terminal. */
+static void keep_on_one_line(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f)
+            *text = '?';
+}
+
+int options_load_as(const struct option_row *table, void *target, const char *const *paths,
+                    int n_paths, const char *override_option, const char *const *overrides,
+                    int n_overrides, char *error, size_t error_size)
+{
+    int failed = load(table, target, paths, n_paths, override_option, overrides, n_overrides, error,
+                      error_size);
+
+    if (failed)
+        keep_on_one_line(error);
+    return failed;
+}

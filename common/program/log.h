@@ -1,0 +1,32 @@
+/* Log lines on stderr, as journald likes them: "<level> program: text".
+ *
+ * Not for the real-time loop: it writes to a file descriptor and may block. */
+#ifndef REACH_COMMON_PROGRAM_LOG_H
+#define REACH_COMMON_PROGRAM_LOG_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum log_level {
+    LOG_LEVEL_ERROR = 3,
+    LOG_LEVEL_WARNING = 4,
+    LOG_LEVEL_INFO = 6,
+    LOG_LEVEL_DEBUG = 7
+};
+
+/* Names the program in front of every line and sets the least important level that is shown.
+ * The string is kept, not copied. Under systemd (JOURNAL_STREAM set) lines start with the
+ * sd-daemon(3) priority "<3>" instead of the program's name. */
+void log_open(const char *program, enum log_level least_important);
+
+/* One line; a newline is added. Thread-safe: one write a line. */
+void log_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void log_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void log_info(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void log_debug(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,291 @@
+#include "daemon/bus/bus.h"
+
+#include "common/base/thread.h"
+#include "common/bus/open.h"
+#include "common/program/log.h"
+#include "daemon/bus/incoming.h"
+#include "daemon/bus/outgoing.h"
+#include "daemon/config/text.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <semaphore.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#define STATES 64
+#define OBSERVATIONS 64
+#define REQUESTS 16
+#define OUTGOING 256
+#define REPORTS 4
+
+static const int poll_ms = 100; /* how soon the receiving thread sees that it is to end */
+
+struct daemon_bus {
+    lcm_t *lcm;
+    struct mailbox *states, *observations, *requests, *outgoing, *reports;
+    sem_t arrived; /* posted for every message that the loop may wait for */
+    sem_t to_send; /* posted for every outgoing message */
+    _Atomic bool ending;
+    _Atomic bool emergency;
+    _Atomic int64_t malformed;
+    enum space_kind space;
+    struct outgoing_messages out; /* the sending thread's */
+    struct outgoing sending;      /* likewise */
+    struct outgoing filling;      /* the loop thread's */
+    reach_config_t config;        /* the sending thread's while it waits, else the main thread's */
+    int64_t configs;              /* the main thread's */
+    _Atomic bool config_waits;
+    pthread_t receiver, sender;
+};
+
+size_t daemon_bus_memory(void)
+{
+    return arena_footprint(sizeof(struct daemon_bus)) +
+           mailbox_memory(sizeof(struct received_state), STATES) +
+           mailbox_memory(sizeof(struct observation), OBSERVATIONS) +
+           mailbox_memory(sizeof(struct received_request), REQUESTS) +
+           mailbox_memory(sizeof(struct outgoing), OUTGOING) +
+           mailbox_memory(sizeof(reach_status_t), REPORTS);
+}
+
+static void refuse(struct daemon_bus *bus)
+{
+    atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
+}
+
+static void deliver(struct daemon_bus *bus, struct mailbox *mailbox, const void *record)
+{
+    if (mailbox_put(mailbox, record))
+        sem_post(&bus->arrived);
+}
+
+static void on_state(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct daemon_bus *bus = user;
+    struct received_state received = {.received = bus_monotonic_us()};
+
+    (void)channel;
+    received.checksum = incoming_checksum(message->data, message->data_size);
+    if (incoming_state(message->data, message->data_size, &received.state))
+        deliver(bus, bus->states, &received);
+    else
+        refuse(bus);
+}
+
+static void on_observation(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct daemon_bus *bus = user;
+    struct observation observation;
+
+    (void)channel;
+    if (incoming_observation(bus->space, message->data, message->data_size, &observation))
+        deliver(bus, bus->observations, &observation);
+    else
+        refuse(bus);
+}
+
+static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct daemon_bus *bus = user;
+    struct received_request received = {.checksum =
+                                            incoming_checksum(message->data, message->data_size)};
+
+    (void)channel;
+    if (!incoming_request(message->data, message->data_size, &received.request)) {
+        refuse(bus);
+        return;
+    }
+    if (received.request.kind == REACH_REQUEST_T_EMERGENCY)
+        daemon_bus_raise_emergency(bus);
+    deliver(bus, bus->requests, &received);
+}
+
+static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
+{
+    bus->states = mailbox_create(arena, sizeof(struct received_state), STATES);
+    bus->observations = mailbox_create(arena, sizeof(struct observation), OBSERVATIONS);
+    bus->requests = mailbox_create(arena, sizeof(struct received_request), REQUESTS);
+    bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
+    bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
+    return bus->states && bus->observations && bus->requests && bus->outgoing && bus->reports;
+}
+
+struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
+                                     char *error, size_t error_size)
+{
+    struct daemon_bus *bus = arena_alloc(arena, sizeof *bus);
+
+    if (!bus || !create_mailboxes(bus, arena)) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    bus->lcm = lcm;
+    bus->space = space;
+    outgoing_init(&bus->out, lcm, "");
+    if (sem_init(&bus->arrived, 0, 0) || sem_init(&bus->to_send, 0, 0) ||
+        !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) ||
+        !lcm_subscribe(lcm, incoming_sense(space), on_observation, bus) ||
+        !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus)) {
+        snprintf(error, error_size, "cannot subscribe to the bus");
+        return NULL;
+    }
+    return bus;
+}
+
+static void *receive(void *user)
+{
+    struct daemon_bus *bus = user;
+
+    pthread_setname_np(pthread_self(), "reachd-receive");
+    while (!atomic_load_explicit(&bus->ending, memory_order_relaxed))
+        if (lcm_handle_timeout(bus->lcm, poll_ms) < 0)
+            log_error("the bus failed to receive");
+    return NULL;
+}
+
+/* Before a message that was put after it: the first trace of a configuration comes after that. */
+static void send_waiting_config(struct daemon_bus *bus)
+{
+    if (!atomic_load_explicit(&bus->config_waits, memory_order_acquire))
+        return;
+    reach_config_t_publish(bus->lcm, "REACH_CONFIG", &bus->config);
+    atomic_store_explicit(&bus->config_waits, false, memory_order_release);
+}
+
+static void *send(void *user)
+{
+    struct daemon_bus *bus = user;
+    bool taken;
+
+    pthread_setname_np(pthread_self(), "reachd-send");
+    for (;;) {
+        while (sem_wait(&bus->to_send) && errno == EINTR)
+            ;
+        taken = mailbox_take(bus->outgoing, &bus->sending);
+        send_waiting_config(bus);
+        if (taken)
+            outgoing_publish(&bus->out, &bus->sending);
+        else if (atomic_load_explicit(&bus->ending, memory_order_acquire))
+            return NULL;
+    }
+}
+
+int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size)
+{
+    int priority = real_time ? REALTIME_PRIORITY_BUS : 0;
+
+    if (realtime_thread(&bus->receiver, priority, receive, bus, error, error_size))
+        return -1;
+    return realtime_thread(&bus->sender, priority, send, bus, error, error_size);
+}
+
+void daemon_bus_stop(struct daemon_bus *bus)
+{
+    atomic_store_explicit(&bus->ending, true, memory_order_release);
+    sem_post(&bus->to_send);
+    pthread_join(bus->sender, NULL);
+    pthread_join(bus->receiver, NULL);
+}
+
+struct mailbox *daemon_bus_states(struct daemon_bus *bus)
+{
+    return bus->states;
+}
+
+struct mailbox *daemon_bus_observations(struct daemon_bus *bus)
+{
+    return bus->observations;
+}
+
+struct mailbox *daemon_bus_requests(struct daemon_bus *bus)
+{
+    return bus->requests;
+}
+
+struct mailbox *daemon_bus_reports(struct daemon_bus *bus)
+{
+    return bus->reports;
+}
+
+bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)
+{
+    struct timespec end;
+    int64_t end_us;
+
+    clock_gettime(CLOCK_REALTIME, &end);
+    end_us = (int64_t)end.tv_sec * 1000000 + end.tv_nsec / 1000 + (int64_t)milliseconds * 1000;
+    end = (struct timespec){.tv_sec = end_us / 1000000, .tv_nsec = end_us % 1000000 * 1000};
+    while (sem_timedwait(&bus->arrived, &end))
+        if (errno != EINTR)
+            return false;
+    return true;
+}
+
+static void hand_over(struct daemon_bus *bus)
+{
+    if (mailbox_put(bus->outgoing, &bus->filling))
+        sem_post(&bus->to_send);
+}
+
+void daemon_bus_send_command(struct daemon_bus *bus, const reach_robot_command_t *command)
+{
+    bus->filling.kind = OUTGOING_COMMAND;
+    bus->filling.command = *command;
+    hand_over(bus);
+}
+
+void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample)
+{
+    bus->filling.kind = OUTGOING_SAMPLE;
+    bus->filling.sample = *sample;
+    hand_over(bus);
+}
+
+void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
+                            const reach_trace_t *trace)
+{
+    bus->filling.kind = OUTGOING_STATUS;
+    bus->filling.status = *status;
+    hand_over(bus);
+    mailbox_put(bus->reports, status);
+    bus->filling.kind = OUTGOING_TRACE;
+    bus->filling.trace = *trace;
+    hand_over(bus);
+}
+
+void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
+{
+    const struct timespec moment = {.tv_nsec = 1000000};
+
+    while (atomic_load_explicit(&bus->config_waits, memory_order_acquire))
+        nanosleep(&moment, NULL); /* the one before is on its way */
+    config_message(config, &bus->config);
+    bus->config.seq = ++bus->configs;
+    atomic_store_explicit(&bus->config_waits, true, memory_order_release);
+    sem_post(&bus->to_send);
+}
+
+void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command)
+{
+    reach_robot_command_t_publish(bus->lcm, "ROBOT_COMMAND", command);
+}
+
+void daemon_bus_raise_emergency(struct daemon_bus *bus)
+{
+    atomic_store_explicit(&bus->emergency, true, memory_order_release);
+}
+
+bool daemon_bus_take_emergency(struct daemon_bus *bus)
+{
+    return atomic_exchange_explicit(&bus->emergency, false, memory_order_acq_rel);
+}
+
+int64_t daemon_bus_refused(const struct daemon_bus *bus)
+{
+    return atomic_load_explicit(&bus->malformed, memory_order_relaxed) +
+           (int64_t)(mailbox_refused(bus->states) + mailbox_refused(bus->observations) +
+                     mailbox_refused(bus->requests) + mailbox_refused(bus->outgoing));
+}

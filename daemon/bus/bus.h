@@ -1,0 +1,75 @@
+/* The daemon's side of the LCM bus: threads that receive and send, so that the loop touches no
+ * socket. The loop meets them only in wait-free mailboxes. */
+#ifndef REACH_DAEMON_BUS_BUS_H
+#define REACH_DAEMON_BUS_BUS_H
+
+#include "common/base/arena.h"
+#include "common/base/mailbox.h"
+#include "daemon/control/tick.h"
+
+#include <lcm/lcm.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct daemon_bus;
+
+/* A robot state with the monotonic time at which it came, us. */
+struct received_state {
+    reach_robot_state_t state;
+    uint32_t checksum;
+    int64_t received;
+};
+
+struct received_request {
+    reach_request_t request;
+    uint32_t checksum;
+};
+
+size_t daemon_bus_memory(void);
+
+/* Subscribes on `lcm`, which stays the caller's, to the sense of this task space among others.
+ * Returns NULL with one line in `error`. */
+struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
+                                     char *error, size_t error_size);
+
+/* Starts the two threads, in real time with a priority over ordinary load. Returns 0, or -1 with
+ * one line in `error`. */
+int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size);
+
+/* Sends what still waits, then ends and joins the threads. */
+void daemon_bus_stop(struct daemon_bus *bus);
+
+/* What has come, for the loop thread: states oldest first, observations and requests likewise. */
+struct mailbox *daemon_bus_states(struct daemon_bus *bus);       /* struct received_state */
+struct mailbox *daemon_bus_observations(struct daemon_bus *bus); /* struct observation */
+struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct received_request */
+
+/* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
+bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);
+
+/* Hands outputs to the sending thread; neither waits nor makes a socket call. What the sender
+ * cannot keep up with is dropped and counted. */
+void daemon_bus_send_command(struct daemon_bus *bus, const reach_robot_command_t *command);
+void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample);
+void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
+                            const reach_trace_t *trace);
+
+/* Main thread: says on the bus what the loop works with, or will after this call. */
+void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
+
+/* For any thread but the loop's: sends a command at once, past the sending thread. */
+void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command);
+
+/* An emergency stop reaches the loop even when the mailbox of requests is full. */
+void daemon_bus_raise_emergency(struct daemon_bus *bus);
+/* For the loop thread: whether one was raised since it was last asked. */
+bool daemon_bus_take_emergency(struct daemon_bus *bus);
+
+/* The statuses that were sent, for the thread that keeps house: reach_status_t, oldest first. Those
+ * that it does not take in time are lost. */
+struct mailbox *daemon_bus_reports(struct daemon_bus *bus);
+
+/* Messages refused so far: malformed, or more than the mailboxes hold. */
+int64_t daemon_bus_refused(const struct daemon_bus *bus);
+
+#endif

@@ -1,0 +1,73 @@
+#include "daemon/config/text.h"
+
+#include "common/bus/open.h"
+#include "common/program/version.h"
+#include "daemon/bus/incoming.h"
+
+#include <string.h>
+
+enum { MOST_LINES = 256, LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
+
+/* As --set takes it. A text stands in quotes, since YAML would take some characters otherwise. */
+static void line(const struct option_row *row, const struct config *config, char out[LINE_SIZE])
+{
+    char value[OPTION_TEXT_SIZE];
+    bool list = row->type == OPTION_LIST || row->type == OPTION_SPREAD;
+    char *end = out + sprintf(out, "%s=", row->name);
+
+    option_text(row, config, value);
+    if (list && !value[0])
+        strcpy(end, "[]");
+    else if (row->type != OPTION_TEXT)
+        strcpy(end, value);
+    else {
+        *end++ = '\'';
+        for (const char *c = value; *c; c++) {
+            *end++ = *c;
+            if (*c == '\'')
+                *end++ = '\'';
+        }
+        strcpy(end, "'");
+    }
+}
+
+int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
+{
+    char next[LINE_SIZE];
+    int used = 0;
+
+    text[0] = '\0';
+    for (const struct option_row *row = config_table(); row->name; row++) {
+        line(row, config, next);
+        used += snprintf(text + used, (size_t)(CONFIG_TEXT_SIZE - used), "%s\n", next);
+        if (used >= CONFIG_TEXT_SIZE)
+            return -1;
+    }
+    return used;
+}
+
+int config_from_text(struct config *config, char *text, char *error, size_t error_size)
+{
+    const char *overrides[MOST_LINES];
+    char *rest = text, *next;
+    int n = 0;
+
+    while ((next = strsep(&rest, "\n")) != NULL && n < MOST_LINES)
+        if (*next)
+            overrides[n++] = next;
+    return config_load(config, NULL, 0, overrides, n, error, error_size);
+}
+
+uint32_t config_text_checksum(const char *text)
+{
+    return incoming_checksum(text, strlen(text));
+}
+
+void config_message(const struct config *config, reach_config_t *message)
+{
+    memset(message, 0, sizeof *message);
+    message->utime = bus_utime();
+    message->checksum = (int32_t)config->checksum;
+    snprintf((char *)message->revision, sizeof message->revision, "%s", reach_version);
+    config_text(config, (char *)message->text);
+}

@@ -1,0 +1,24 @@
+/* A configuration as one text, which gives it again to the last bit: lines "name=value", as --set
+ * takes them, for every option. A log holds it, so that it can be replayed without the files. */
+#ifndef REACH_DAEMON_CONFIG_TEXT_H
+#define REACH_DAEMON_CONFIG_TEXT_H
+
+#include "daemon/config/config.h"
+
+#include <reach_config_t.h>
+
+enum { CONFIG_TEXT_SIZE = sizeof((reach_config_t *)0)->text }; /* with its terminator */
+
+/* The text of what was loaded. Returns its length, or -1 when it does not fit. */
+int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE]);
+
+/* Loads it. Returns 0, or -1 with one line in `error`. The text is taken apart. */
+int config_from_text(struct config *config, char *text, char *error, size_t error_size);
+
+/* CRC-32 of the text. */
+uint32_t config_text_checksum(const char *text);
+
+/* The message for the bus. */
+void config_message(const struct config *config, reach_config_t *message);
+
+#endif

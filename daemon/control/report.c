@@ -1,0 +1,158 @@
+#include "daemon/control/tick_private.h"
+#include "learner/store/model_file.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The pair belongs to the past; eq. 14 brings its output to the present joints. */
+void tick_anchor(struct tick *tick, const struct pair *pair)
+{
+    struct selection *selection = &tick->selection;
+    const double *jacobian = select_jacobian(selection);
+    double x[MAX_OUTPUTS] = {0};
+
+    for (int row = 0; row < selection->n_outputs; row++) {
+        x[row] = pair->x[row];
+        for (int i = 0; jacobian && i < selection->n_inputs; i++)
+            x[row] += jacobian[row * selection->n_inputs + i] * (tick->q[i] - pair->q[i]);
+    }
+    select_anchor(selection, x);
+}
+
+/* A pair of this very instant needs no prediction of its own. */
+static const struct learner_prediction *predict_at(struct tick *tick, const double *q)
+{
+    size_t size = sizeof(double) * (size_t)tick->selection.n_inputs;
+
+    if (tick->state_seq_now && memcmp(q, tick->q, size) == 0)
+        return &tick->selection.prediction;
+    learner_predict(tick->learner, q, &tick->pair_prediction);
+    return &tick->pair_prediction;
+}
+
+void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs)
+{
+    struct selection *selection = &tick->selection;
+    const struct learner_prediction *prediction = predict_at(tick, pair->q);
+    reach_sample_t *sample = &outputs->sample;
+
+    memset(sample, 0, sizeof *sample);
+    sample->utime = pair->utime;
+    sample->seq = ++tick->sample_seq;
+    sample->request_seq = tick->behaviour.request_seq;
+    sample->learned = tick->behaviour.learn;
+    sample->n_inputs = selection->n_inputs;
+    sample->n_outputs = selection->n_outputs;
+    memcpy(sample->q, pair->q, sizeof sample->q);
+    memcpy(sample->x, pair->x, sizeof sample->x);
+    sample->solutions = prediction->n_solutions;
+    sample->solution = select_closest(selection, prediction, selection->x_estimated);
+    for (int k = 0; k < prediction->n_solutions; k++)
+        memcpy(sample->values[k], prediction->solution[k].value, sizeof sample->values[k]);
+    if (sample->solution >= 0)
+        memcpy(sample->x_predicted, prediction->solution[sample->solution].value,
+               sizeof sample->x_predicted);
+    outputs->has_sample = true;
+
+    if (tick->behaviour.learn)
+        training_add(&tick->training, pair->q, selection->n_inputs, pair->x, selection->n_outputs);
+    tick_anchor(tick, pair);
+}
+
+static double error_norm(const struct tick *tick)
+{
+    double sum = 0;
+
+    for (int axis = 0; tick->has_target && axis < SPACE_DIMENSIONS; axis++) {
+        double error = tick->target[axis] - tick->sight.carried[axis];
+        sum += error * error;
+    }
+    return sqrt(sum);
+}
+
+static void report_behaviour(const struct tick *tick, reach_status_t *status)
+{
+    const struct behaviour *behaviour = &tick->behaviour;
+
+    status->behaviour = behaviour->ops ? behaviour->ops->code : REACH_STATUS_T_NONE;
+    status->phase = behaviour->ops ? behaviour->progress.phase : REACH_STATUS_T_DONE;
+    status->progress = behaviour->progress.done;
+    status->progress_total = behaviour->progress.total;
+    status->skipped = behaviour->progress.skipped;
+}
+
+static void report_model(const struct tick *tick, reach_status_t *status)
+{
+    const struct selection *selection = &tick->selection;
+    const double *value = select_value(selection);
+    struct model_store_report store = model_store_report(tick->store);
+
+    status->samples = tick->training.learned;
+    status->model_samples = (int64_t)model_samples(tick->learner);
+    status->samples_stored = store.stored;
+    status->storing = store.storing;
+    status->store_waits = store.waits;
+    status->experts = learner_get_statistics(tick->learner).experts;
+    status->solutions = selection->prediction.n_solutions;
+    status->solution = selection->solution;
+    status->contexts = tick->context.count;
+    status->context = tick->context.current;
+    status->n_outputs = selection->n_outputs;
+    if (value)
+        memcpy(status->x_predicted, value, sizeof status->x_predicted);
+    memcpy(status->x_estimated, selection->x_estimated, sizeof status->x_estimated);
+    status->queue = tick->training.count;
+    status->dropped_samples = tick->training.dropped;
+}
+
+static void report_status(const struct tick *tick, int64_t now, reach_status_t *status)
+{
+    memset(status, 0, sizeof *status);
+    status->utime = now;
+    status->seq = tick->seq;
+    status->state_seq = tick->state_seq;
+    status->state = (int8_t)tick->state;
+    status->fault = tick->fault;
+    status->request_seq = tick->request_seq;
+    status->request_result = tick->request_result;
+    status->marker_seen = sight_seen(&tick->sight, now);
+    status->fixated = sight_fixated(&tick->sight);
+    status->space = (int8_t)tick->config->space.kind;
+    status->error = error_norm(tick);
+    status->bad_inputs = tick->bad_inputs;
+    status->staleness = tick->state_known ? tick->state_age : -1;
+    status->gated = tick->safety.changed;
+    report_behaviour(tick, status);
+    report_model(tick, status);
+}
+
+static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
+                         reach_trace_t *trace)
+{
+    struct model_store_moment moment = model_store_moment(tick->store);
+
+    trace->utime = now;
+    trace->seq = tick->seq;
+    trace->store_result = (int8_t)moment.result;
+    trace->store_ready = moment.ready;
+    trace->model = (int64_t)moment.model;
+    trace->config = (int32_t)tick->config->checksum;
+    trace->state_seq = tick->state_seq_now;
+    trace->marker_seq = tick->marker_seq_now;
+    trace->request_seq = tick->request_seq_now;
+    trace->learned = tick->learned_now;
+    trace->n_joints = outputs->command.n_joints;
+    memcpy(trace->velocity, outputs->command.velocity, sizeof trace->velocity);
+    trace->solutions = tick->selection.prediction.n_solutions;
+    trace->solution = tick->selection.solution;
+    trace->n_outputs = tick->selection.n_outputs;
+    memcpy(trace->x_seen, tick->sight.carried, sizeof trace->x_seen);
+    memcpy(trace->x_target, tick->target, sizeof trace->x_target);
+    memcpy(trace->x_estimated, tick->selection.x_estimated, sizeof trace->x_estimated);
+}
+
+void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs)
+{
+    report_status(tick, now, &outputs->status);
+    report_trace(tick, now, outputs, &outputs->trace);
+}

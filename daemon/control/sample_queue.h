@@ -1,0 +1,43 @@
+/* Training samples on their way to the learner: a bounded queue that is emptied in the slack of
+ * the tick. What it cannot hold is counted, never waited for. */
+#ifndef REACH_DAEMON_CONTROL_SAMPLE_QUEUE_H
+#define REACH_DAEMON_CONTROL_SAMPLE_QUEUE_H
+
+#include "common/base/arena.h"
+#include "daemon/config/sizes.h"
+#include "learner/learner.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct training {
+    int capacity;
+    int oldest;
+    int count;       /* samples that wait */
+    int64_t learned; /* samples handed to the learner */
+    int64_t dropped; /* samples that the queue could not hold */
+    struct training_sample *samples;
+};
+
+struct training_sample {
+    double z[MAX_JOINTS];
+    double x[MAX_OUTPUTS];
+};
+
+size_t training_memory(int capacity);
+
+/* The queue's samples come from the arena. Returns 0, or -1 when the arena is full. */
+int training_init(struct training *training, int capacity, struct arena *arena);
+
+/* Queues a copy of z[n_inputs], x[n_outputs]. */
+void training_add(struct training *training, const double *z, int n_inputs, const double *x,
+                  int n_outputs);
+
+/* The sample that is next; NULL when none waits. */
+const struct training_sample *training_oldest(const struct training *training);
+
+/* Hands the oldest sample to the learner. Returns false when none waits. */
+bool training_learn_one(struct training *training, struct learner *learner);
+
+#endif

@@ -1,0 +1,300 @@
+#include "daemon/control/tick.h"
+
+#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/gaze.h"
+#include "daemon/control/inputs.h"
+#include "daemon/control/kinematics/estimate.h"
+#include "daemon/control/limits/motion.h"
+#include "daemon/control/limits/safety.h"
+#include "daemon/control/sample_queue.h"
+#include "daemon/control/senses/joint_history.h"
+#include "daemon/control/senses/sight.h"
+#include "daemon/control/supervisor.h"
+#include "daemon/control/tick_private.h"
+#include "daemon/control/trace.h"
+
+#include <math.h>
+#include <string.h>
+
+static const int64_t overtaken_us = 200000; /* the most that messages overtake each other */
+
+size_t tick_memory(const struct config *config)
+{
+    struct learner_config learner = config_learner(config);
+    size_t learner_bytes = learner_memory(&learner);
+
+    return arena_footprint(sizeof(struct tick)) + learner_bytes + model_store_memory() +
+           training_memory(config->learner_queue);
+}
+
+struct model_store_settings tick_store_settings(const struct config *config)
+{
+    return (struct model_store_settings){
+        .directory = config->model_directory,
+        .automatic = config->model_automatic,
+        .snapshot_samples = config->model_snapshot,
+        .sync_us = (int64_t)(config->model_sync * 1e6),
+        .keep = config->model_keep,
+        .learner = config_learner(config),
+    };
+}
+
+struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+                         size_t error_size)
+{
+    struct learner_config learner = config_learner(config);
+    const struct model_store_settings settings = tick_store_settings(config);
+    struct tick *tick = arena_alloc(arena, sizeof *tick);
+
+    if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    tick->config = config;
+    tick->learner = learner_create(&learner, arena, error, error_size);
+    if (!tick->learner)
+        return NULL;
+    tick->store = model_store_create(&settings, arena, error, error_size);
+    if (!tick->store)
+        return NULL;
+    history_init(&tick->history, config_joints(config));
+    sight_init(&tick->sight, config);
+    select_init(&tick->selection, config_arm_joints(config), SPACE_DIMENSIONS, config->space.scale);
+    context_init(&tick->context);
+    gaze_init(&tick->gaze, config);
+    safety_init(&tick->safety, config);
+    return tick;
+}
+
+struct model_store *tick_model_store(struct tick *tick)
+{
+    return tick->store;
+}
+
+int tick_open_model(struct tick *tick, char *error, size_t error_size)
+{
+    return model_store_open(tick->store, tick->learner, error, error_size);
+}
+
+void tick_take_recorded_model(struct tick *tick)
+{
+    model_store_poll(tick->store, &tick->learner);
+}
+
+bool tick_awaits_store(const struct tick *tick)
+{
+    return model_store_works(tick->store) ||
+           (training_oldest(&tick->training) && model_store_full(tick->store));
+}
+
+bool tick_learn(struct tick *tick)
+{
+    const struct training_sample *sample = training_oldest(&tick->training);
+
+    if (!sample || !model_store_note(tick->store, sample->z, sample->x))
+        return false;
+    training_learn_one(&tick->training, tick->learner);
+    tick->learned_now++;
+    return true;
+}
+
+/* The robot's clock was set back: what was seen belongs to another time. */
+static void begin_anew(struct tick *tick)
+{
+    history_init(&tick->history, config_joints(tick->config));
+    sight_init(&tick->sight, tick->config);
+    gaze_init(&tick->gaze, tick->config);
+    tick->selection.moved_from = false;
+}
+
+/* Overtaken on its way by a newer one, or seen before. A robot that starts anew begins with
+ * number 1, one whose clock is set back goes back farther. */
+static bool is_late(const struct tick *tick, const reach_robot_state_t *state)
+{
+    return tick->state_known && state->seq > 1 && state->seq <= tick->state_seq &&
+           state->utime <= tick->state_utime && tick->state_utime - state->utime < overtaken_us;
+}
+
+static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
+{
+    if (!inputs->has_state || is_late(tick, &inputs->state))
+        return false;
+    if (inputs_state_ok(tick->config, &inputs->state))
+        return true;
+    tick->bad_inputs++;
+    return false;
+}
+
+/* Takes the state in. A bad one is dropped, the last good one kept until it is stale. */
+static void take_state(struct tick *tick, const struct tick_inputs *inputs)
+{
+    const reach_robot_state_t *state = &inputs->state;
+
+    tick->state_seq_now = 0;
+    if (!is_good(tick, inputs)) {
+        tick->state_age = fmax(inputs->state_age, tick->state_age + tick->config->period);
+        return;
+    }
+    tick->state_age = inputs->state_age;
+    safety_measured(&tick->safety);
+    if (tick->state_known && state->utime <= tick->state_utime)
+        begin_anew(tick);
+    tick->state_utime = state->utime;
+    tick->state_seq_now = state->seq;
+    tick->state_seq = state->seq;
+    tick->state_known = true;
+    memcpy(tick->q, state->position, sizeof tick->q);
+    history_push(&tick->history, state->utime, state->position);
+}
+
+static void take_observations(struct tick *tick, const struct tick_inputs *inputs)
+{
+    tick->marker_seq_now = 0;
+    tick->sight.new_frame = false;
+    for (int i = 0; i < inputs->n_observations; i++) {
+        if (!inputs_observation_ok(tick->config, &inputs->observation[i]))
+            tick->bad_inputs++;
+        else if (sight_observe(&tick->sight, &inputs->observation[i], &tick->history))
+            tick->marker_seq_now = inputs->observation[i].seq;
+    }
+}
+
+/* The output is measured, wherever the end-effector is: the estimate of eq. 14 starts from it. */
+static void measure(struct tick *tick)
+{
+    struct pair pair;
+
+    sight_pair(&tick->sight, 1, pair.q, pair.x, &pair.utime);
+    tick_anchor(tick, &pair);
+}
+
+/* Predicts at the present joints, chooses the solution, carries what was seen to now. */
+static void sense(struct tick *tick)
+{
+    if (tick->state_seq_now) {
+        select_integrate(&tick->selection, tick->q);
+        if (tick->sight.new_frame && !tick->config->space.fixates)
+            measure(tick);
+        select_solution(&tick->selection, tick->learner, tick->q);
+        context_follow(&tick->context, &tick->selection);
+    }
+    sight_carry(&tick->sight, tick->q, select_jacobian(&tick->selection));
+}
+
+static uint32_t conditions(const struct tick *tick, const struct tick_inputs *inputs)
+{
+    uint32_t set = 0;
+
+    if (tick->state_known)
+        set |= CONDITION_STATE_KNOWN;
+    if (tick->state_age <= tick->config->state_hold)
+        set |= CONDITION_STATE_FRESH;
+    if (tick->state_age <= tick->config->state_suspend)
+        set |= CONDITION_STATE_ALIVE;
+    if (tick->behaviour.ops)
+        set |= CONDITION_BUSY;
+    if (inputs->overrunning)
+        set |= CONDITION_OVERRUNNING;
+    if (inputs->emergency || tick->emergency_requested)
+        set |= CONDITION_EMERGENCY;
+    if (inputs->braked > 0)
+        set |= CONDITION_STALLED;
+    if (tick->reset_requested)
+        set |= CONDITION_RESET_REQUESTED;
+    return set;
+}
+
+static void supervise(struct tick *tick, const struct tick_inputs *inputs)
+{
+    uint32_t set = conditions(tick, inputs);
+
+    tick->state = supervisor_next(tick->state, set);
+    tick->fault = supervisor_fault(tick->state, set, tick->fault);
+    tick->reset_requested = false;
+    tick->emergency_requested = false;
+    /* A fault ends the work: what was wanted before it may no longer be. */
+    if (tick->state == SUPERVISOR_FAULT)
+        tick->behaviour.ops = NULL;
+}
+
+/* What the behaviour wants, shaped; rest when none runs. What the supervisor stops is stopped by
+ * the gate alone, as fast as the robot may. */
+static void behave(struct tick *tick, struct control *control)
+{
+    const struct config *config = tick->config;
+    int n_arm = config_arm_joints(config);
+
+    if (tick->state != SUPERVISOR_ACTIVE && tick->state != SUPERVISOR_IDLE)
+        return;
+    if (tick->state == SUPERVISOR_ACTIVE && tick->behaviour.ops &&
+        !tick->behaviour.ops->step(&tick->behaviour, control)) {
+        tick->behaviour.ops = NULL;
+        memset(control->velocity, 0, sizeof control->velocity);
+    }
+    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, control->velocity);
+    motion_shape(config, n_arm, config_head_joints(config), tick->q, tick->safety.previous,
+                 control->velocity);
+}
+
+static void command(struct tick *tick, const struct control *control, int64_t now,
+                    struct tick_outputs *outputs)
+{
+    reach_robot_command_t *command = &outputs->command;
+
+    outputs->has_command = tick->state_known;
+    *command = (reach_robot_command_t){.utime = now,
+                                       .seq = tick->seq,
+                                       .state_seq = tick->state_seq,
+                                       .n_joints = config_joints(tick->config)};
+    memcpy(command->velocity, control->velocity, sizeof command->velocity);
+    safety_gate(&tick->safety, tick->q, command->velocity);
+}
+
+/* Nothing that was built on the old one depends on what may differ (reload.h). */
+static void take_config(struct tick *tick, const struct config *config)
+{
+    tick->config = config;
+    tick->sight.config = config;
+    tick->gaze.config = config;
+    tick->safety.config = config;
+}
+
+void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
+                 struct tick_outputs *outputs)
+{
+    struct control control = {
+        .config = inputs->config ? inputs->config : tick->config,
+        .now = now,
+        .q = tick->q,
+        .previous = tick->safety.previous,
+        .sight = &tick->sight,
+        .selection = &tick->selection,
+        .gaze = &tick->gaze,
+        .tried = &tick->tried,
+    };
+
+    if (inputs->config)
+        take_config(tick, inputs->config);
+    tick->seq += 1 + inputs->unseen;
+    tick->learned_now = 0;
+    safety_held(&tick->safety, inputs->slipped);
+    if (inputs->braked > 0)
+        safety_was_braked(&tick->safety, inputs->braked);
+    else if (inputs->robot_rests)
+        safety_rests(&tick->safety);
+    outputs->has_sample = false;
+    trace_inputs(inputs, &outputs->trace);
+    outputs->trace.fresh = !tick->touched;
+    tick->touched = tick->touched || trace_inputs_matter(inputs);
+    take_state(tick, inputs);
+    take_observations(tick, inputs);
+    sense(tick);
+    tick_take_requests(tick, inputs, &control);
+    supervise(tick, inputs);
+    behave(tick, &control);
+    if (control.has_pair)
+        tick_take_pair(tick, &control.pair, outputs);
+    tick->has_target = control.has_target;
+    memcpy(tick->target, control.target, sizeof tick->target);
+    command(tick, &control, now, outputs);
+}

@@ -1,0 +1,90 @@
+/* One control step: what, not when. A function of (state, inputs, now) that reads no clock, does no
+ * input or output and allocates nothing.
+ *
+ * A tick has three calls, in this order: tick_decide makes the command, which can leave at once;
+ * tick_learn spends what is left of the period; tick_report says what happened. */
+#ifndef REACH_DAEMON_CONTROL_TICK_H
+#define REACH_DAEMON_CONTROL_TICK_H
+
+#include "common/base/arena.h"
+#include "daemon/config/config.h"
+#include "daemon/control/senses/observation.h"
+#include "learner/store/store.h"
+
+#include <reach_request_t.h>
+#include <reach_robot_command_t.h>
+#include <reach_robot_state_t.h>
+#include <reach_sample_t.h>
+#include <reach_status_t.h>
+#include <reach_trace_t.h>
+#include <stdbool.h>
+
+#define TICK_MAX_OBSERVATIONS 8
+#define TICK_MAX_REQUESTS 8
+
+/* What has come since the tick before, in order of arrival. */
+struct tick_inputs {
+    const struct config *config; /* works with this one from now on; NULL = with the one it has */
+    bool has_state;
+    reach_robot_state_t state;
+    uint32_t state_checksum; /* of the message, for the trace */
+    double state_age; /* of the newest state ever received, good or bad, s; INFINITY = none yet */
+    int n_observations;
+    struct observation observation[TICK_MAX_OBSERVATIONS];
+    int n_requests;
+    reach_request_t request[TICK_MAX_REQUESTS];
+    uint32_t request_checksum[TICK_MAX_REQUESTS];
+    bool overrunning; /* the loop was late too often */
+    bool emergency;   /* somebody wants the arm stopped at once */
+    int braked;       /* braking commands that the watchdog sent since the last tick */
+    int64_t slipped;  /* periods that went by without a tick since the last one */
+    bool robot_rests; /* no command went out for so long that the robot stopped by itself */
+    int64_t unseen;   /* ticks before this one that a replay lost; their numbers are skipped */
+};
+
+struct tick_outputs {
+    bool has_command;
+    reach_robot_command_t command;
+    bool has_sample;
+    reach_sample_t sample;
+    reach_status_t status; /* fields of time (compute, wake-up, overruns) are the loop's to fill */
+    reach_trace_t trace;   /* `refused` is the loop's to fill, checksums are the sender's */
+};
+
+struct tick;
+
+/* Bytes that tick_create takes from an arena. */
+size_t tick_memory(const struct config *config);
+
+/* Everything of the control step, owned by the arena. `config` is kept, not copied.
+ * Returns NULL with one line in `error`. */
+struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+                         size_t error_size);
+
+/* Senses, supervises, decides. Fills command and sample. */
+void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
+                 struct tick_outputs *outputs);
+
+/* Learns one sample of those that wait. Returns false when none does, or when the store has no room
+ * for it: learning then waits, control does not. */
+bool tick_learn(struct tick *tick);
+
+/* Whether a sample waits for the store's room, or a request for a model that is saved or loaded. */
+bool tick_awaits_store(const struct tick *tick);
+
+/* Fills status and trace of the tick just decided. */
+void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs);
+
+/* The store that housekeeping must serve. */
+struct model_store *tick_model_store(struct tick *tick);
+
+/* Before the loop starts: goes on from the model on disk. Returns 0, or -1 with one line. */
+int tick_open_model(struct tick *tick, char *error, size_t error_size);
+
+/* The same for a replay: takes what its store has been given (model_store_replay). */
+void tick_take_recorded_model(struct tick *tick);
+
+/* The model.* options, for the store. */
+struct model_store_settings tick_store_settings(const struct config *config);
+
+#endif

@@ -1,0 +1,68 @@
+/* The control step's state, for the files that make it up: tick.c (the order of the step),
+ * requests.c (what users ask), report.c (samples, status and trace). */
+#ifndef REACH_DAEMON_CONTROL_TICK_PRIVATE_H
+#define REACH_DAEMON_CONTROL_TICK_PRIVATE_H
+
+#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/gaze.h"
+#include "daemon/control/kinematics/estimate.h"
+#include "daemon/control/limits/safety.h"
+#include "daemon/control/sample_queue.h"
+#include "daemon/control/senses/context.h"
+#include "daemon/control/senses/joint_history.h"
+#include "daemon/control/senses/sight.h"
+#include "daemon/control/supervisor.h"
+#include "daemon/control/tick.h"
+
+struct tick {
+    const struct config *config;
+    struct learner *learner;
+    struct model_store *store;
+    struct training training;
+    struct history history;
+    struct sight sight;
+    struct selection selection;
+    struct context context;
+    struct gaze gaze;
+    struct tried tried;
+    struct safety safety;
+    struct behaviour behaviour;
+    struct learner_prediction pair_prediction; /* too large for the stack */
+
+    enum supervisor_state state;
+    bool state_known;
+    bool touched; /* by anything that matters since it began */
+    int8_t fault; /* constants of status_t */
+    bool reset_requested;
+    bool emergency_requested;
+    bool loading;         /* the request that is pending replaces the model */
+    double q[MAX_JOINTS]; /* newest good state, rad */
+    int64_t seq;          /* ticks so far */
+    int64_t state_seq;    /* newest good state */
+    int64_t state_utime;  /* its time, us */
+    double state_age;     /* since it came, s */
+    int64_t sample_seq;
+    int64_t bad_inputs;
+
+    int64_t request_seq;   /* newest looked at */
+    int8_t request_result; /* constants of status_t */
+
+    /* This tick's, for the trace. */
+    int64_t state_seq_now, marker_seq_now, request_seq_now;
+    int32_t learned_now;
+    bool has_target;
+    double target[SPACE_DIMENSIONS];
+};
+
+/* Looks at the requests that came, and at what became of a save or load. */
+void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
+                        struct control *control);
+
+/* The output was measured at the pair's joints: eq. 14 goes on from there. */
+void tick_anchor(struct tick *tick, const struct pair *pair);
+
+/* A behaviour gathered a pair: report it with the prediction made before it is learned, queue it
+ * for learning unless the model is frozen, and let the context follow it. */
+void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs);
+
+#endif

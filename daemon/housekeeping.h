@@ -1,0 +1,32 @@
+/* Housekeeping in the main thread: signals, warnings, the service manager. The disk has a thread of
+ * its own, keeper.h. */
+#ifndef REACH_DAEMON_HOUSEKEEPING_H
+#define REACH_DAEMON_HOUSEKEEPING_H
+
+#include "daemon/bus/bus.h"
+#include "daemon/realtime/loop.h"
+#include "daemon/reload.h"
+#include "daemon/service_manager.h"
+
+#include <stdint.h>
+
+struct house {
+    struct loop *loop;
+    struct daemon_bus *bus;
+    struct reload *reload;
+    struct service service;
+    reach_status_t status; /* the newest */
+    bool any_status;
+    int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
+    int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
+    int64_t said;          /* when the log was last told of it, monotonic us */
+    int64_t announced;     /* when the bus was last told the configuration, monotonic us */
+};
+
+/* Blocks the signals that house_keep receives. To be called before any thread starts. */
+void house_take_signals(void);
+
+/* Keeps house until SIGINT or SIGTERM asks to end. */
+void house_keep(struct house *house);
+
+#endif

@@ -1,5 +1,0 @@
-/* The kernels for vectors of four. */
-#define KERNELS_TABLE kernels_avx2
-#define KERNELS_NAME "avx2"
-#define KERNELS_WIDTH 4
-#include "daemon/kernels_body.h"

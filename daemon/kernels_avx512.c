@@ -1,5 +1,0 @@
-/* The kernels for vectors of eight. */
-#define KERNELS_TABLE kernels_avx512
-#define KERNELS_NAME "avx512"
-#define KERNELS_WIDTH 8
-#include "daemon/kernels_body.h"

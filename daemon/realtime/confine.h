@@ -1,0 +1,20 @@
+/* Which system calls the loop thread may make: a short list in confine.c, and no other.
+ *
+ * The promise "no allocation from the system, no lock that waits, no file, no socket in the loop"
+ * is kept by the kernel (seccomp): a call that is not on the list does not happen. The thread then
+ * stands still for good, the watchdog (watchdog.h) stops the arm, says which call it was and ends
+ * the process, so that a supervisor can start a healthy one. */
+#ifndef REACH_DAEMON_REALTIME_CONFINE_H
+#define REACH_DAEMON_REALTIME_CONFINE_H
+
+#include <stddef.h>
+
+/* Confines the calling thread until it ends. Returns 0, or -1 with one line in `error`. Does
+ * nothing under the sanitizers, whose runtime makes calls of its own. */
+int confine_thread(char *error, size_t error_size);
+
+/* The number of the forbidden system call that a confined thread made, -1 = none. From any thread.
+ */
+int confine_violation(void);
+
+#endif

@@ -1,0 +1,64 @@
+/* The replay's state, for the files that make it up: replay.c (messages in, ticks out),
+ * replay/run.c (the beginning of a run: configuration and model), verify.c (what ticks
+ * sent). */
+#ifndef REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
+#define REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
+
+#include "daemon/bus/outgoing.h"
+#include "daemon/config/text.h"
+#include "daemon/replay/recording.h"
+#include "daemon/replay/replay.h"
+#include "learner/store/model_file.h"
+
+enum { REPLAY_CONFIGS = 64, REPLAY_REASON = 400 };
+
+struct replay {
+    struct replay_settings settings;
+    struct replay_report report;
+    struct recording recording[REPLAY_TRACE]; /* of all channels before it */
+    reach_config_t texts[REPLAY_CONFIGS];     /* newest configurations */
+    int64_t n_texts;
+
+    /* The run. */
+    struct arena *arena;
+    struct tick *tick;       /* NULL = none has begun */
+    struct config config[2]; /* used in turn, so that the tick can go over from one to the other */
+    const struct config *used;
+    struct arena *spare; /* of the learner that models are read into, once one is needed */
+    struct model_bytes model;
+    struct model_store_recorded store;
+    uint64_t model_hash; /* of what the learner was given whole */
+    int64_t seq;         /* of the newest tick */
+
+    /* The tick at hand. */
+    int64_t position; /* of its trace */
+    reach_trace_t trace;
+    struct tick_inputs inputs;
+    struct tick_outputs outputs;
+    struct outgoing recorded, replayed;
+};
+
+/* "byte 123: tick 7: ..." in `error`. Returns -1. */
+int replay_fail(const struct replay *replay, char *error, size_t error_size, const char *format,
+                ...) __attribute__((format(printf, 4, 5)));
+
+/* Counts `n` messages that are missing, from number `first` on; without `lossy` this is an error.
+ * Returns 0, or -1 with one line. */
+int replay_miss(struct replay *replay, enum replay_channel channel, int64_t first, int64_t n,
+                const char *what, char *error, size_t error_size);
+
+/* A tick as it was before the trace at hand, the first of a run. Returns 0, or -1 with one line. */
+int replay_begin_run(struct replay *replay, char *error, size_t error_size);
+
+/* The configuration that the trace at hand names becomes the next one in `inputs`, when it is not
+ * the one in use. Returns 0, or -1 with one line. */
+int replay_follow_config(struct replay *replay, char *error, size_t error_size);
+
+/* What the store said in the tick at hand; with the model, where it was loaded. Returns as above.
+ */
+int replay_follow_store(struct replay *replay, char *error, size_t error_size);
+
+/* Compares what the tick sends with what it sent. Returns as above. */
+int replay_verify(struct replay *replay, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,43 @@
+#include "daemon/service_manager.h"
+
+#include "common/bus/status_words.h"
+
+#include <stdio.h>
+
+static const int64_t line_period = 1000000; /* us */
+
+void service_begin(struct service *service)
+{
+    *service = (struct service){.watchdog = notify_watchdog_open()};
+    notify_send("READY=1\nSTATUS=waiting for the robot");
+}
+
+void service_line(const reach_status_t *status, char *line, size_t size)
+{
+    snprintf(line, size,
+             "%s, %s (%s) %d of %d; %lld samples, %d experts; worst tick %.0f us, %lld overruns",
+             status_state_word(status->state), status_behaviour_word(status->behaviour),
+             status_phase_word(status->phase), status->progress, status->progress_total,
+             (long long)status->samples, status->experts, status->compute_max_us,
+             (long long)status->overruns);
+}
+
+void service_keep(struct service *service, int64_t now, int64_t ticks, bool waits,
+                  const reach_status_t *status)
+{
+    char line[256];
+
+    if (ticks != service->ticks || waits)
+        notify_watchdog_feed(&service->watchdog, now);
+    service->ticks = ticks;
+    if (!status || now - service->told < line_period)
+        return;
+    service->told = now;
+    service_line(status, line, sizeof line);
+    notify_send("STATUS=%s", line);
+}
+
+void service_end(void)
+{
+    notify_send("STOPPING=1\nSTATUS=stopping the arm");
+}

@@ -1,0 +1,101 @@
+/* The infinite mixture of experts behind the learner's interface: creation and the table. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "learner/imle/chi2.h"
+#include "learner/imle/imle.h"
+
+static void set_dimensions(struct imle *m, const struct learner_config *config)
+{
+    m->config = *config;
+    m->d = config->n_inputs;
+    m->D = config->n_outputs;
+    m->p = feature_map_count(config);
+    m->small = m->p <= LEARNER_MAX_INPUTS;
+}
+
+static int check(const struct learner_config *config, char *err, size_t err_size)
+{
+    if (!kernels_of(config->kernels)) {
+        snprintf(err, err_size, "kernels is %d: this machine has no such vectors",
+                 (int)config->kernels);
+        return -1;
+    }
+    if (feature_map_count(config) > 0)
+        return 0;
+    snprintf(err, err_size, "degree %d of %d inputs gives more than %d features: lower the degree",
+             config->degree, config->n_inputs, FEATURE_MAP_MAX);
+    return -1;
+}
+
+static size_t memory(const struct learner_config *config)
+{
+    struct imle m;
+
+    memset(&m, 0, sizeof m);
+    set_dimensions(&m, config);
+    return arena_footprint(sizeof m) + feature_map_memory(config) + imle_layout(&m, NULL);
+}
+
+static void *create(const struct learner_config *config, struct arena *arena)
+{
+    struct imle *m = arena_alloc(arena, sizeof *m);
+
+    if (!m)
+        return NULL;
+    set_dimensions(m, config);
+    m->kernels = kernels_of(config->kernels);
+    m->whitened = -1;
+    m->map = feature_map_create(config, arena);
+    if (!m->map || imle_layout(m, arena) == 0)
+        return NULL;
+    memcpy(m->sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
+    memcpy(m->psi_bar, config->psi0, (size_t)m->D * sizeof(double));
+    m->log_c_joint = -0.5 * chi2_quantile(m->d + m->D, 1.0 - config->p0);
+    m->log_c_input = -0.5 * chi2_quantile(m->d, 1.0 - config->p0);
+    m->leader_threshold = chi2_quantile(m->D, config->leader_level);
+    return m;
+}
+
+static enum learner_update_result update(void *self, const double *z, const double *x)
+{
+    return imle_learn(self, z, x);
+}
+
+static int predict(void *self, const double *z, struct learner_prediction *prediction)
+{
+    return imle_predict(self, z, prediction);
+}
+
+static int predict_single(void *self, const double *z, struct learner_solution *solution)
+{
+    return imle_predict_single(self, z, solution);
+}
+
+static int predict_inverse(void *self, const double *x, struct learner_inverse *inverse)
+{
+    return imle_predict_inverse(self, x, inverse);
+}
+
+static int experts(const void *self)
+{
+    const struct imle *m = self;
+
+    return m->M;
+}
+
+const struct learner_ops learner_imle_ops = {
+    .name = "imle",
+    .check = check,
+    .memory = memory,
+    .create = create,
+    .update = update,
+    .predict = predict,
+    .predict_single = predict_single,
+    .predict_inverse = predict_inverse,
+    .experts = experts,
+    .state_size = imle_state_size,
+    .save = imle_save,
+    .load = imle_load,
+};

@@ -1,0 +1,113 @@
+#include "learner/service/bus.h"
+
+#include "common/base/mailbox.h"
+#include "common/base/thread.h"
+
+#include "common/program/log.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+
+#define QUEUE 256   /* requests; a power of two */
+#define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
+
+static const int poll_ms = 100; /* how soon the thread sees that it is to end */
+
+struct service_bus {
+    lcm_t *lcm;
+    struct mailbox *requests;
+    void (*arrived)(void *user);
+    void *user;
+    _Atomic int64_t malformed;
+    _Atomic bool ending;
+    pthread_t receiver;
+};
+
+size_t service_bus_memory(void)
+{
+    return arena_footprint(sizeof(struct service_bus)) +
+           mailbox_memory(sizeof(reach_learner_request_t), QUEUE);
+}
+
+static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct service_bus *bus = user;
+    reach_learner_request_t request;
+    const int size = (int)message->data_size;
+
+    (void)channel;
+    if (reach_learner_request_t_decode(message->data, 0, size, &request) != size)
+        atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
+    else if (mailbox_put(bus->requests, &request))
+        bus->arrived(bus->user);
+}
+
+struct service_bus *service_bus_create(lcm_t *lcm, void (*arrived)(void *user), void *user,
+                                       struct arena *arena, char *error, size_t error_size)
+{
+    struct service_bus *bus = arena_alloc(arena, sizeof *bus);
+    lcm_subscription_t *subscription;
+
+    if (bus)
+        bus->requests = mailbox_create(arena, sizeof(reach_learner_request_t), QUEUE);
+    if (!bus || !bus->requests) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    bus->lcm = lcm;
+    bus->arrived = arrived;
+    bus->user = user;
+    subscription = lcm_subscribe(lcm, "LEARNER_REQUEST", on_request, bus);
+    if (!subscription || lcm_subscription_set_queue_capacity(subscription, UNTAKEN)) {
+        snprintf(error, error_size, "cannot subscribe to the bus");
+        return NULL;
+    }
+    return bus;
+}
+
+static void *receive(void *user)
+{
+    struct service_bus *bus = user;
+
+    pthread_setname_np(pthread_self(), "learner-receive");
+    while (!atomic_load_explicit(&bus->ending, memory_order_relaxed))
+        if (lcm_handle_timeout(bus->lcm, poll_ms) < 0)
+            log_error("the bus failed to receive");
+    return NULL;
+}
+
+int service_bus_start(struct service_bus *bus, char *error, size_t error_size)
+{
+    return realtime_thread(&bus->receiver, 0, receive, bus, error, error_size);
+}
+
+void service_bus_stop(struct service_bus *bus)
+{
+    atomic_store_explicit(&bus->ending, true, memory_order_relaxed);
+    pthread_join(bus->receiver, NULL);
+}
+
+bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request)
+{
+    return mailbox_take(bus->requests, request);
+}
+
+int64_t service_bus_dropped(const struct service_bus *bus)
+{
+    return (int64_t)mailbox_refused(bus->requests);
+}
+
+int64_t service_bus_malformed(const struct service_bus *bus)
+{
+    return atomic_load_explicit(&bus->malformed, memory_order_relaxed);
+}
+
+void service_bus_send(struct service_bus *bus, enum desk_answer answer,
+                      const struct desk_output *output)
+{
+    if (answer == DESK_REPLY)
+        reach_learner_reply_t_publish(bus->lcm, "LEARNER_REPLY", &output->reply);
+    else if (answer == DESK_PREDICTION)
+        reach_learner_prediction_t_publish(bus->lcm, "LEARNER_PREDICTION", &output->prediction);
+}

@@ -1,0 +1,243 @@
+/* The store's work in the housekeeping thread: samples into the journal and the shadow, snapshots,
+ * saving and loading by number. */
+#include "learner/store/store_private.h"
+
+#include "common/program/log.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static const int64_t retry_us = 1000000; /* after a failure */
+
+static void publish(struct model_store *store)
+{
+    atomic_store_explicit(&store->stored,
+                          model_store_pack(store->shadow_epoch, store->journal.stored),
+                          memory_order_release);
+}
+
+/* The disk refuses: said once, tried again later. Only a new snapshot can follow what is missing.
+ */
+static void give_up_journal(struct model_store *store, int64_t now, const char *what)
+{
+    char trouble[MODEL_REASON_MOST];
+
+    snprintf(trouble, sizeof trouble, "%s: %s: %s", store->settings.directory, what,
+             strerror(errno));
+    journal_close(&store->journal);
+    atomic_store_explicit(&store->storing, false, memory_order_relaxed);
+    store->retry_at = now + retry_us;
+    if (strcmp(trouble, store->trouble) != 0)
+        log_error("%s; what is learned from here on is not stored", trouble);
+    memcpy(store->trouble, trouble, sizeof trouble);
+}
+
+static void begin_generation(struct model_store *store, int64_t now)
+{
+    struct journal next;
+
+    model_capture(&store->model, store->shadow);
+    if (generations_begin(&store->generations, &store->model, &next)) {
+        give_up_journal(store, now, "cannot make a snapshot");
+        return;
+    }
+    journal_close(&store->journal);
+    store->journal = next;
+    store->waiting_since = 0;
+    publish(store);
+    atomic_store_explicit(&store->storing, true, memory_order_relaxed);
+    if (store->trouble[0])
+        log_info("%s: stored again, up to sample %llu", store->settings.directory,
+                 (unsigned long long)store->shadow_number);
+    store->trouble[0] = '\0';
+}
+
+static void commit(struct model_store *store, int64_t now)
+{
+    if (journal_commit(&store->journal)) {
+        give_up_journal(store, now, "cannot write the journal");
+        return;
+    }
+    store->waiting_since = 0;
+    publish(store);
+}
+
+static bool snapshot_is_due(const struct model_store *store, int64_t now)
+{
+    const struct journal *journal = &store->journal;
+
+    if (journal->file < 0)
+        return now >= store->retry_at;
+    return journal->appended - journal->first >= (uint64_t)store->settings.snapshot_samples;
+}
+
+static void keep(struct model_store *store, int64_t now)
+{
+    bool snapshot = snapshot_is_due(store, now);
+    bool late = store->waiting_since && now - store->waiting_since >= store->settings.sync_us;
+
+    if (store->journal.file >= 0 && (snapshot || late))
+        commit(store, now);
+    if (snapshot)
+        begin_generation(store, now);
+}
+
+static void path_of(const struct model_store *store, char *path)
+{
+    snprintf(path, MODEL_PATH_MOST, "%s/model-%d.imle", store->settings.directory,
+             store->model_number);
+}
+
+static int write_model(const struct model_store *store, const char *path)
+{
+    char reason[MODEL_REASON_MOST];
+    char aside[MODEL_PATH_MOST + 16];
+    enum model_file_result before = model_file_check(store->files, path, reason, sizeof reason);
+
+    if (before != MODEL_FILE_READ && before != MODEL_FILE_ABSENT) {
+        if (files_set_aside(store->files, path, aside, sizeof aside))
+            return -1;
+        log_warning("%s; set aside as %s", reason, aside);
+    }
+    return model_file_write_aside(store->files, path, &store->model) ||
+                   model_file_place(store->files, store->settings.directory, path)
+               ? -1
+               : 0;
+}
+
+/* Exactly the model that was asked for: called when the shadow stands at its sample. */
+static void save(struct model_store *store)
+{
+    char path[MODEL_PATH_MOST];
+
+    path_of(store, path);
+    model_capture(&store->model, store->shadow);
+    if (write_model(store, path)) {
+        log_error("%s: %s", path, strerror(errno));
+        model_store_set_stage(store, FAILED);
+        return;
+    }
+    log_info("%s: saved, %llu samples", path, (unsigned long long)store->model.samples);
+    model_store_set_stage(store, DONE);
+}
+
+static void save_if_reached(struct model_store *store)
+{
+    if (model_store_stage(store) == SAVE_ASKED && store->shadow_number == store->save_at)
+        save(store);
+}
+
+/* The model into the shadow, which the loop will steer by. Returns 0, or -1 with a line; the shadow
+ * is then as it was. */
+static int read_model(struct model_store *store, const char *path, char *reason, size_t reason_size)
+{
+    char why[200];
+
+    if (model_file_read(store->files, path, &store->model, reason, reason_size) != MODEL_FILE_READ)
+        return -1;
+    if (store->unlocked && arena_lock(store->arena, true)) {
+        snprintf(reason, reason_size, "%s: cannot lock memory for it: %s; raise LimitMEMLOCK", path,
+                 strerror(errno));
+        return -1;
+    }
+    store->unlocked = false; /* from now on both learners take turns at being the loop's */
+    if (learner_load(store->shadow, store->model.bytes, store->model.size, why, sizeof why) == 0)
+        return 0;
+    snprintf(reason, reason_size, "%s: %s", path, why);
+    return -1;
+}
+
+static void load(struct model_store *store, int64_t now)
+{
+    char path[MODEL_PATH_MOST];
+    char reason[MODEL_REASON_MOST];
+
+    path_of(store, path);
+    if (read_model(store, path, reason, sizeof reason)) {
+        log_error("%s", reason);
+        model_store_set_stage(store, FAILED);
+        return;
+    }
+    log_info("%s: read, %llu samples", path, (unsigned long long)store->model.samples);
+    if (store->journal.file >= 0)
+        commit(store, now); /* the last of the model that goes */
+    journal_close(&store->journal);
+    atomic_store_explicit(&store->storing, false, memory_order_relaxed);
+    store->retry_at = 0;
+    store->shadow_epoch++;
+    model_store_set_stage(store, READ);
+}
+
+/* The loop steers by what was read; its old learner becomes the shadow and must be made equal. */
+static void follow_swap(struct model_store *store)
+{
+    char why[200];
+
+    if (learner_load(store->shadow, store->model.bytes, store->model.size, why, sizeof why))
+        log_error("the shadow refuses the model that it held before: %s", why); /* cannot be */
+    store->shadow_number = store->model.samples;
+    model_store_set_stage(store, FREE);
+}
+
+static void take(struct model_store *store, const struct noted *noted, int64_t now)
+{
+    if (noted->epoch != store->shadow_epoch)
+        return; /* learned by a model that has been replaced */
+    learner_update(store->shadow, noted->sample.z, noted->sample.x);
+    store->shadow_number = noted->sample.number;
+    if (!store->waiting_since)
+        store->waiting_since = now;
+    if (store->journal.file >= 0 && journal_append(&store->journal, &noted->sample))
+        give_up_journal(store, now, "cannot write the journal");
+}
+
+static void drain(struct model_store *store, int64_t now)
+{
+    struct noted noted;
+
+    while (mailbox_peek(store->noted, &noted)) {
+        save_if_reached(store); /* looked at after the sample behind it was seen */
+        mailbox_take(store->noted, &noted);
+        take(store, &noted, now);
+    }
+    save_if_reached(store);
+}
+
+void model_store_serve(struct model_store *store, int64_t now)
+{
+    if (!store->arena || model_store_stage(store) == READ)
+        return;
+    if (model_store_stage(store) == SWAPPED)
+        follow_swap(store);
+    drain(store, now);
+    if (model_store_stage(store) == LOAD_ASKED)
+        load(store, now);
+    else if (store->opened)
+        keep(store, now);
+}
+
+static void store_the_rest(struct model_store *store)
+{
+    if (model_store_stage(store) == SWAPPED)
+        follow_swap(store);
+    drain(store, 0);
+    if (store->journal.file >= 0)
+        commit(store, 0);
+    if (store->journal.file < 0)
+        begin_generation(store, 0);
+    if (store->journal.file >= 0)
+        log_info("%s: stored up to sample %llu", store->settings.directory,
+                 (unsigned long long)store->journal.stored);
+    journal_close(&store->journal);
+}
+
+void model_store_close(struct model_store *store)
+{
+    if (!store)
+        return;
+    /* A model that was read, but never taken by the loop, is not the one that was learned. */
+    if (store->opened && model_store_stage(store) != READ)
+        store_the_rest(store);
+    model_store_release(store);
+}

@@ -1,0 +1,292 @@
+#include "learner/store/store.h"
+
+#include "learner/store/store_private.h"
+
+#include "common/program/log.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+
+static const uint32_t noted_capacity = 1024; /* samples; a power of two */
+
+size_t model_store_memory(void)
+{
+    return arena_footprint(sizeof(struct model_store)) +
+           mailbox_memory(sizeof(struct noted), noted_capacity);
+}
+
+static bool has_directory(const struct model_store *store)
+{
+    return store->settings.directory[0];
+}
+
+static int create_shadow(struct model_store *store, char *error, size_t error_size)
+{
+    size_t bytes = learner_memory(&store->settings.learner);
+
+    store->arena = arena_create(bytes + arena_footprint(bytes));
+    if (!store->arena) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    store->shadow = learner_create(&store->settings.learner, store->arena, error, error_size);
+    store->model.bytes = arena_alloc(store->arena, bytes);
+    store->model.capacity = bytes;
+    return store->shadow && store->model.bytes ? 0 : -1;
+}
+
+struct model_store *model_store_create(const struct model_store_settings *settings,
+                                       struct arena *arena, char *error, size_t error_size)
+{
+    struct model_store *store = arena_alloc(arena, sizeof *store);
+
+    if (store)
+        store->noted = mailbox_create(arena, sizeof(struct noted), noted_capacity);
+    if (!store || !store->noted) {
+        snprintf(error, error_size, "out of memory");
+        return NULL;
+    }
+    store->settings = *settings;
+    store->ready = has_directory(store);
+    store->files = settings->files ? settings->files : &files_system;
+    store->directory_file = -1;
+    store->journal.file = -1;
+    store->generations = (struct generations){
+        .files = store->files, .directory = settings->directory, .keep = settings->keep};
+    if (has_directory(store) && create_shadow(store, error, error_size)) {
+        arena_destroy(store->arena);
+        return NULL;
+    }
+    return store;
+}
+
+static int take_directory(struct model_store *store, bool shared, char *error, size_t error_size)
+{
+    const char *directory = store->settings.directory;
+    int file = store->files->open(directory, O_RDONLY | O_DIRECTORY);
+
+    if (file < 0) {
+        snprintf(error, error_size, "model.directory: %s: %s", directory, strerror(errno));
+        return -1;
+    }
+    if (store->files->lock(file, shared)) {
+        snprintf(error, error_size, "model.directory: %s: %s", directory,
+                 errno == EWOULDBLOCK ? "another program keeps its model there; end it first, or "
+                                        "give this one a directory of its own"
+                                      : strerror(errno));
+        store->files->close(file);
+        return -1;
+    }
+    store->directory_file = file;
+    return 0;
+}
+
+/* The shadow as it is on disk; the learner's own errors name no file. */
+static int recover(struct model_store *store, struct recovery *recovery, char *error,
+                   size_t error_size)
+{
+    if (generations_recover(&store->generations, store->shadow, &store->model, recovery, error,
+                            error_size))
+        return -1;
+    model_capture(&store->model, store->shadow);
+    store->shadow_number = store->number = store->model.samples;
+    store->moment.model = recovery->any ? store->model.hash : 0;
+    return 0;
+}
+
+static void describe(const struct model_store *store, const struct recovery *recovery, char *text,
+                     size_t text_size)
+{
+    if (!recovery->any)
+        snprintf(text, text_size, "%s: no model yet", store->settings.directory);
+    else
+        snprintf(text, text_size,
+                 "%s: a model of %llu samples, hash %016llx, %d experts; generation %lld and %llu "
+                 "samples from its journal",
+                 store->settings.directory, (unsigned long long)store->model.samples,
+                 (unsigned long long)store->model.hash,
+                 learner_get_statistics(store->shadow).experts, (long long)recovery->generation,
+                 (unsigned long long)recovery->replayed);
+}
+
+void model_store_replay(struct model_store *store, struct model_store_recorded *recorded)
+{
+    store->recorded = recorded;
+}
+
+int model_store_open(struct model_store *store, struct learner *learner, char *error,
+                     size_t error_size)
+{
+    struct recovery recovery = {0};
+    char text[MODEL_REASON_MOST];
+
+    if (!has_directory(store))
+        return 0;
+    if (take_directory(store, false, error, error_size))
+        return -1;
+    if (!store->settings.automatic)
+        return 0;
+    if (recover(store, &recovery, error, error_size) ||
+        learner_load(learner, store->model.bytes, store->model.size, error, error_size))
+        return -1;
+    store->opened = true;
+    describe(store, &recovery, text, sizeof text);
+    log_info("%s", text);
+    return 0;
+}
+
+int model_store_check(const struct model_store_settings *settings, char *text, size_t text_size)
+{
+    struct arena *arena = arena_create(model_store_memory());
+    struct model_store *store = arena ? model_store_create(settings, arena, text, text_size) : NULL;
+    struct recovery recovery = {0};
+    int result = -1;
+
+    if (store && !has_directory(store))
+        snprintf(text, text_size, "model.directory is empty: there is nothing to check");
+    else if (store && take_directory(store, true, text, text_size) == 0)
+        result = recover(store, &recovery, text, text_size);
+    if (result == 0)
+        describe(store, &recovery, text, text_size);
+    if (store)
+        model_store_release(store);
+    arena_destroy(arena);
+    return result;
+}
+
+void model_store_release(struct model_store *store)
+{
+    if (store->directory_file >= 0)
+        store->files->close(store->directory_file);
+    store->directory_file = -1;
+    arena_destroy(store->arena);
+    store->arena = NULL;
+}
+
+void model_store_unlock_memory(struct model_store *store)
+{
+    if (store->arena && arena_lock(store->arena, false) == 0)
+        store->unlocked = true;
+}
+
+bool model_store_full(const struct model_store *store)
+{
+    return has_directory(store) && mailbox_full(store->noted);
+}
+
+bool model_store_note(struct model_store *store, const double *z, const double *x)
+{
+    const struct learner_config *learner = &store->settings.learner;
+    struct noted noted = {.epoch = store->epoch, .sample = {.number = store->number + 1}};
+
+    if (!has_directory(store))
+        return true;
+    memcpy(noted.sample.z, z, sizeof(double) * (size_t)learner->n_inputs);
+    memcpy(noted.sample.x, x, sizeof(double) * (size_t)learner->n_outputs);
+    if (!mailbox_put(store->noted, &noted))
+        return false;
+    store->number++;
+    return true;
+}
+
+bool model_store_works(const struct model_store *store)
+{
+    enum stage stage = model_store_stage(store);
+
+    return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED;
+}
+
+static bool begin(struct model_store *store, int number)
+{
+    if (!store->ready)
+        return false;
+    store->ready = false;
+    store->model_number = number;
+    return true;
+}
+
+bool model_store_begin_save(struct model_store *store, int number)
+{
+    if (!begin(store, number))
+        return false;
+    store->save_at = store->number;
+    model_store_set_stage(store, SAVE_ASKED);
+    return true;
+}
+
+bool model_store_begin_load(struct model_store *store, int number)
+{
+    if (!begin(store, number))
+        return false;
+    model_store_set_stage(store, LOAD_ASKED);
+    return true;
+}
+
+static enum model_store_result take_result(struct model_store *store, struct learner **learner)
+{
+    struct learner *old = *learner;
+
+    switch (model_store_stage(store)) {
+    case READ:
+        *learner = store->shadow;
+        store->shadow = old;
+        store->epoch++;
+        store->number = store->model.samples;
+        store->moment.model = store->model.hash;
+        model_store_set_stage(store, SWAPPED);
+        return MODEL_STORE_DONE;
+    case DONE:
+        model_store_set_stage(store, FREE);
+        return MODEL_STORE_DONE;
+    case FAILED:
+        model_store_set_stage(store, FREE);
+        return MODEL_STORE_FAILED;
+    default:
+        return MODEL_STORE_NOTHING;
+    }
+}
+
+static void take_recorded(struct model_store *store, struct learner **learner)
+{
+    struct model_store_recorded *recorded = store->recorded;
+    struct learner *old = *learner;
+
+    store->moment = recorded->moment;
+    store->ready = recorded->moment.ready;
+    if (!recorded->take)
+        return;
+    *learner = recorded->learner;
+    recorded->learner = old;
+    recorded->take = false;
+}
+
+enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
+{
+    if (store->recorded) {
+        take_recorded(store, learner);
+        return store->moment.result;
+    }
+    store->moment.result = take_result(store, learner);
+    store->ready = has_directory(store) && model_store_stage(store) == FREE;
+    store->moment.ready = store->ready;
+    return store->moment.result;
+}
+
+struct model_store_moment model_store_moment(const struct model_store *store)
+{
+    return store->moment;
+}
+
+struct model_store_report model_store_report(const struct model_store *store)
+{
+    uint64_t stored = atomic_load_explicit(&store->stored, memory_order_acquire);
+    uint64_t of_this = stored - model_store_pack(store->epoch, 0);
+
+    return (struct model_store_report){
+        .stored = of_this <= store->number ? (int64_t)of_this : 0,
+        .storing = atomic_load_explicit(&store->storing, memory_order_relaxed),
+        .waits = (int64_t)mailbox_refused(store->noted),
+    };
+}

@@ -1,0 +1,121 @@
+#include "simrobot/world/robot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim
+{
+
+Robot::Robot(World &world, const Rig &rig, const Config &config)
+    : rig_(rig), step_(world.step_length())
+{
+    size_t n = rig.description.segments.size();
+
+    bodies_.assign(n, nullptr);
+    hinges_.assign(n, nullptr);
+    motors_.assign(n, Motor{config.head_acceleration, 0, 0});
+    for (int i = 0; i < rig.n_arm; i++)
+        motors_[static_cast<size_t>(rig.joints[static_cast<size_t>(i)])].acceleration =
+            config.arm_acceleration;
+    for (size_t i = 1; i < n; i++)
+        add_segment(world, config, i);
+}
+
+/* Body and hinge are made at angle 0, which is where ODE then measures the angle from. */
+void Robot::add_segment(World &world, const Config &config, size_t index)
+{
+    const Segment &segment = rig_.description.segments[index];
+    Eigen::Isometry3d frame =
+        rig_forward(rig_, std::vector<double>(rig_.joints.size(), 0.0))[index];
+    Eigen::Vector3d axis = frame.linear() * segment.axis;
+    dBodyID body = dBodyCreate(world.id());
+    dJointID hinge = dJointCreateHinge(world.id(), nullptr);
+
+    body_set_mass(body, segment.mass, segment.inertia);
+    body_set_pose(body, frame * Eigen::Translation3d(segment.centre_of_mass));
+    dJointAttach(hinge, body, bodies_[static_cast<size_t>(segment.parent)]);
+    dJointSetHingeAnchor(hinge, frame.translation().x(), frame.translation().y(),
+                         frame.translation().z());
+    dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
+    dJointSetHingeParam(hinge, dParamFMax, segment.effort);
+    dJointSetHingeParam(hinge, dParamVel, 0);
+    /* A motor that pushes against its stop is stopped by the stop, not thrown back. */
+    dJointSetHingeParam(hinge, dParamBounce, 0);
+    if (config.hard_stops && std::isfinite(segment.lower)) {
+        dJointSetHingeParam(hinge, dParamLoStop, segment.lower);
+        dJointSetHingeParam(hinge, dParamHiStop, segment.upper);
+    }
+    bodies_[index] = body;
+    hinges_[index] = hinge;
+}
+
+void Robot::reset(const std::vector<double> &angles)
+{
+    std::vector<Eigen::Isometry3d> poses = rig_forward(rig_, angles);
+
+    for (size_t i = 1; i < bodies_.size(); i++) {
+        const Segment &segment = rig_.description.segments[i];
+        body_set_pose(bodies_[i], poses[i] * Eigen::Translation3d(segment.centre_of_mass));
+        dBodySetLinearVel(bodies_[i], 0, 0, 0);
+        dBodySetAngularVel(bodies_[i], 0, 0, 0);
+        motors_[i].target = motors_[i].speed = 0;
+    }
+}
+
+void Robot::command(const std::vector<double> &velocities)
+{
+    for (size_t i = 0; i < rig_.joints.size(); i++) {
+        auto segment = static_cast<size_t>(rig_.joints[i]);
+        double limit = rig_.description.segments[segment].velocity;
+        motors_[segment].target = std::clamp(velocities[i], -limit, limit);
+    }
+}
+
+void Robot::drive_motors()
+{
+    for (size_t i = 1; i < motors_.size(); i++) {
+        double most = motors_[i].acceleration * step_;
+        motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
+        dJointSetHingeParam(hinges_[i], dParamVel, motors_[i].speed);
+    }
+}
+
+std::vector<double> Robot::positions() const
+{
+    std::vector<double> result;
+    for (int segment : rig_.joints)
+        result.push_back(dJointGetHingeAngle(hinges_[static_cast<size_t>(segment)]));
+    return result;
+}
+
+std::vector<double> Robot::velocities() const
+{
+    std::vector<double> result;
+    for (int segment : rig_.joints)
+        result.push_back(dJointGetHingeAngleRate(hinges_[static_cast<size_t>(segment)]));
+    return result;
+}
+
+std::vector<Eigen::Isometry3d> Robot::segment_poses() const
+{
+    std::vector<Eigen::Isometry3d> poses(bodies_.size(), Eigen::Isometry3d::Identity());
+    for (size_t i = 1; i < bodies_.size(); i++) {
+        Eigen::Vector3d centre = rig_.description.segments[i].centre_of_mass;
+        poses[i] = body_pose(bodies_[i]) * Eigen::Translation3d(-centre);
+    }
+    return poses;
+}
+
+std::vector<BodyShape> Robot::collisions(int segment) const
+{
+    const Segment &description = rig_.description.segments[static_cast<size_t>(segment)];
+    std::vector<BodyShape> result;
+
+    for (Shape shape : description.collisions) {
+        shape.pose = Eigen::Translation3d(-description.centre_of_mass) * shape.pose;
+        result.push_back({body(segment), shape});
+    }
+    return result;
+}
+
+} // namespace sim

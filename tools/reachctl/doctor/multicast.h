@@ -1,0 +1,23 @@
+/* The multicast group behind an LCM address, without LCM. */
+#ifndef REACH_TOOLS_REACHCTL_DOCTOR_MULTICAST_H
+#define REACH_TOOLS_REACHCTL_DOCTOR_MULTICAST_H
+
+#include <netinet/in.h>
+
+struct multicast {
+    char group[INET_ADDRSTRLEN];
+    struct sockaddr_in address;
+};
+
+/* Reads "udpm://group:port?...". Returns 0 or -1. */
+int multicast_parse(const char *url, struct multicast *bus);
+
+/* By which interface a packet to the group would leave, "?" where that cannot be told; `interface`
+ * has room for IF_NAMESIZE.
+ *   returns 0, or -1 when by none */
+int multicast_route(const struct multicast *bus, char *interface);
+
+/* A socket that receives every packet to the group, from anyone. Returns it or -1. */
+int multicast_listen(const struct multicast *bus);
+
+#endif

@@ -1,0 +1,72 @@
+#include "vision/answers/show.h"
+
+#include <opencv2/highgui.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cstdlib>
+
+static const char title[] = "reachd vision";
+static const cv::Scalar found_colour(0, 0, 255);
+static const cv::Scalar text_colour(255, 255, 255);
+static const int fraction_bits = 4; /* OpenCV draws to fractions of a pixel in fixed point */
+
+static cv::Mat to_bgr(const image_view &image)
+{
+    const cv::Mat wrapped(image.height, image.width, CV_8UC3, const_cast<uint8_t *>(image.data),
+                          image.stride);
+    cv::Mat copy;
+
+    if (image.order == PIXEL_RGB)
+        cv::cvtColor(wrapped, copy, cv::COLOR_RGB2BGR);
+    else
+        copy = wrapped.clone();
+    return copy;
+}
+
+static int fixed_point(double px)
+{
+    return static_cast<int>(px * (1 << fraction_bits));
+}
+
+static void draw_blob(cv::Mat *picture, const blob &found)
+{
+    const cv::Point centre(fixed_point(found.pixel.column), fixed_point(found.pixel.row));
+
+    cv::circle(*picture, centre, fixed_point(found.radius), found_colour, 1, cv::LINE_AA,
+               fraction_bits);
+    cv::drawMarker(*picture, {centre.x >> fraction_bits, centre.y >> fraction_bits}, found_colour,
+                   cv::MARKER_CROSS, 9);
+}
+
+cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who, bool seen,
+                  const char *caption)
+{
+    cv::Mat left_picture = to_bgr(left);
+    cv::Mat right_picture = to_bgr(right);
+    cv::Mat both;
+
+    if (seen) {
+        draw_blob(&left_picture, who.left_blob);
+        draw_blob(&right_picture, who.right_blob);
+    }
+    cv::hconcat(left_picture, right_picture, both);
+    cv::putText(both, caption, {8, both.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.5, text_colour, 1,
+                cv::LINE_AA);
+    return both;
+}
+
+bool show_possible()
+{
+    return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+}
+
+bool show_window(const cv::Mat &picture)
+{
+    try {
+        cv::imshow(title, picture);
+        cv::waitKey(1);
+    } catch (const cv::Exception &) {
+        return false;
+    }
+    return true;
+}

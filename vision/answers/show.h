@@ -1,0 +1,19 @@
+/* A window for people: both pictures with what was found in them. */
+#ifndef VISION_ANSWERS_SHOW_H
+#define VISION_ANSWERS_SHOW_H
+
+#include <opencv2/core.hpp>
+
+#include "vision/ball/eyes.h"
+
+/* Left and right picture side by side, the outlines drawn in, BGR. */
+cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who, bool seen,
+                  const char *caption);
+
+/* Whether a display can be reached at all. */
+bool show_possible();
+
+/* Shows a picture and serves the window's events. Returns false when the display refuses. */
+bool show_window(const cv::Mat &picture);
+
+#endif

@@ -1,0 +1,110 @@
+#include "vision/ball/stereo.h"
+
+#include <algorithm>
+#include <cmath>
+
+/* A line of sight in the frame between the eyes: slopes to the right and down. */
+struct slopes {
+    double across;
+    double down;
+    double stretch; /* length of (across, down, 1) */
+};
+
+/* `turn` is how far the eye looks to the right of that frame's z; rad. */
+static slopes turned(const direction &view, double turn)
+{
+    const double cosine = std::cos(turn);
+    const double sine = std::sin(turn);
+    const double z = cosine * view.z - sine * view.x;
+    const double across = (cosine * view.x + sine * view.z) / z;
+    const double down = view.y / z;
+
+    return {across, down, std::sqrt(1 + across * across + down * down)};
+}
+
+static double pinhole_u(const camera &eye, const direction &view)
+{
+    return eye.focal * view.x / view.z;
+}
+
+static double pinhole_v(const camera &eye, const direction &view)
+{
+    return eye.focal * view.y / view.z;
+}
+
+static bool differ(double a, double b, double tolerance)
+{
+    return !(std::fabs(a - b) <= tolerance * std::min(a, b));
+}
+
+/* The ball's radius for a depth of 1: both eyes must find the same, however near each is. */
+static double relative_size(const blob &found, const slopes &sight)
+{
+    return found.cone.tangent * found.cone.cosine * sight.stretch;
+}
+
+stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    const slopes from_left = turned(left.cone.axis, rig.vergence / 2);
+    const slopes from_right = turned(right.cone.axis, -rig.vergence / 2);
+    const double closing = from_left.across - from_right.across; /* baseline / depth */
+    const double left_size = relative_size(left, from_left);
+    const double right_size = relative_size(right, from_right);
+    const double disparity =
+        pinhole_u(rig.left, left.cone.axis) - pinhole_u(rig.right, right.cone.axis);
+
+    if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <= rig.height_tolerance))
+        return STEREO_HEIGHTS_DIFFER;
+    if (differ(left_size, right_size, rig.size_tolerance))
+        return STEREO_SIZES_DIFFER;
+    if (!(disparity >= rig.disparity_min && disparity <= rig.disparity_max))
+        return STEREO_DISPARITY_RANGE;
+    if (rig.ball_radius > 0) {
+        if (!(closing > 0))
+            return STEREO_DISPARITY_RANGE;
+        const double depth = rig.baseline / closing;
+        if (differ((left_size + right_size) / 2 * depth, rig.ball_radius, rig.size_tolerance))
+            return STEREO_SIZES_DIFFER;
+    }
+    return STEREO_SEEN;
+}
+
+static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    stereo_marker marker;
+
+    marker.reason = STEREO_SEEN;
+    marker.u_right = pinhole_u(rig.right, right.cone.axis);
+    marker.v_right = pinhole_v(rig.right, right.cone.axis);
+    marker.disparity = pinhole_u(rig.left, left.cone.axis) - marker.u_right;
+    marker.radius = right.radius;
+    return marker;
+}
+
+stereo_marker stereo_match(const stereo_rig &rig, const blob *left, int n_left, const blob *right,
+                           int n_right, int *left_index, int *right_index)
+{
+    stereo_marker marker;
+    double best = -1;
+    bool seen = false;
+
+    marker.reason = n_right == 0 ? STEREO_NOT_IN_RIGHT : STEREO_NOT_IN_LEFT;
+    for (int i = 0; i < n_left; i++)
+        for (int j = 0; j < n_right; j++) {
+            const stereo_reason reason = stereo_check(rig, left[i], right[j]);
+            const double score = left[i].score * right[j].score;
+            if ((reason == STEREO_SEEN) < seen ||
+                ((reason == STEREO_SEEN) == seen && score <= best))
+                continue;
+            seen = reason == STEREO_SEEN;
+            best = score;
+            marker = stereo_marker();
+            marker.reason = reason;
+            if (!seen)
+                continue;
+            marker = marker_of(rig, left[i], right[j]);
+            *left_index = i;
+            *right_index = j;
+        }
+    return marker;
+}

@@ -1,0 +1,158 @@
+#include "vision/pictures/image_message.h"
+
+#include <cstring>
+
+static const uint64_t fingerprint = 0x20ba4f05e8f5e33aULL;
+static const int16_t type_left = 0;
+static const int16_t type_right = 1;
+static const int max_metadata = 64; /* entries of an image: cameras send a handful */
+
+/* The bytes not yet read. Once something was missing, `failed` stays and all reads give 0. */
+struct reader {
+    const uint8_t *at;
+    size_t left;
+    bool failed;
+};
+
+static const uint8_t *take(reader *in, size_t n)
+{
+    const uint8_t *start = in->at;
+
+    if (in->failed || n > in->left) {
+        in->failed = true;
+        return nullptr;
+    }
+    in->at += n;
+    in->left -= n;
+    return start;
+}
+
+/* LCM sends numbers with the highest byte first. */
+static uint64_t take_number(reader *in, size_t n)
+{
+    const uint8_t *bytes = take(in, n);
+    uint64_t value = 0;
+
+    for (size_t i = 0; bytes && i < n; i++)
+        value = value << 8 | bytes[i];
+    return value;
+}
+
+static int32_t take_int32(reader *in)
+{
+    return static_cast<int32_t>(static_cast<uint32_t>(take_number(in, 4)));
+}
+
+static int64_t take_int64(reader *in)
+{
+    return static_cast<int64_t>(take_number(in, 8));
+}
+
+static const char *skip_metadata(reader *in)
+{
+    const int32_t n = take_int32(in);
+
+    if (in->failed)
+        return "it ends inside an image";
+    if (n < 0 || n > max_metadata)
+        return "an image's count of metadata is out of range";
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t key = take_int32(in); /* with its closing zero */
+        if (in->failed || key < 1)
+            return "a metadata key is damaged";
+        take(in, static_cast<size_t>(key));
+        const int32_t value = take_int32(in);
+        if (in->failed || value < 0)
+            return "a metadata value is damaged";
+        take(in, static_cast<size_t>(value));
+        if (in->failed)
+            return "it ends inside an image's metadata";
+    }
+    return nullptr;
+}
+
+static const char *check_rows(const encoded_image &image, int32_t stride)
+{
+    const size_t row =
+        static_cast<size_t>(image.width) * (image.format == PIXEL_FORMAT_GRAY ? 1 : 3);
+
+    if (image.format == PIXEL_FORMAT_MJPEG)
+        return nullptr;
+    if (stride < 0 || static_cast<size_t>(stride) < row)
+        return "an image's row_stride is shorter than its rows";
+    if (image.size < static_cast<size_t>(stride) * (static_cast<size_t>(image.height) - 1) + row)
+        return "an image has fewer bytes than its rows need";
+    return nullptr;
+}
+
+static bool known_format(int32_t format)
+{
+    return format == PIXEL_FORMAT_GRAY || format == PIXEL_FORMAT_RGB ||
+           format == PIXEL_FORMAT_BGR || format == PIXEL_FORMAT_MJPEG;
+}
+
+static const char *take_image(reader *in, encoded_image *image)
+{
+    take_int64(in); /* the pair's own stamp counts */
+    image->width = take_int32(in);
+    image->height = take_int32(in);
+    const int32_t stride = take_int32(in);
+    image->format = take_int32(in);
+    const int32_t size = take_int32(in);
+    if (in->failed)
+        return "it ends inside an image";
+    if (image->width < 1 || image->height < 1 || image->width > IMAGE_MESSAGE_MAX_SIDE ||
+        image->height > IMAGE_MESSAGE_MAX_SIDE)
+        return "an image's width or height is out of range";
+    if (!known_format(image->format))
+        return "an image's pixelformat is unknown";
+    if (size < 1)
+        return "an image's size is out of range";
+    image->size = static_cast<size_t>(size);
+    image->data = take(in, image->size);
+    if (!image->data)
+        return "it ends inside an image's pixels";
+    const char *wrong = check_rows(*image, stride);
+    image->stride = wrong || image->format == PIXEL_FORMAT_MJPEG ? 0 : static_cast<size_t>(stride);
+    return wrong ? wrong : skip_metadata(in);
+}
+
+static const char *take_images(reader *in, const int16_t *types, int n, image_message *message)
+{
+    for (int i = 0; i < n; i++) {
+        encoded_image image;
+        const char *wrong = take_image(in, &image);
+        if (wrong)
+            return wrong;
+        if (types[i] != type_left && types[i] != type_right)
+            continue;
+        encoded_image *place = types[i] == type_left ? &message->left : &message->right;
+        if (place->data)
+            return "it has two images of one eye";
+        *place = image;
+    }
+    if (in->left > 0)
+        return "bytes are left over at its end";
+    return message->left.data && message->right.data ? nullptr : "an eye's image is missing";
+}
+
+const char *image_message_parse(const uint8_t *data, size_t size, image_message *message)
+{
+    reader in = {data, size, false};
+    int16_t types[IMAGE_MESSAGE_MAX_IMAGES];
+
+    *message = image_message();
+    if (take_number(&in, 8) != fingerprint || in.failed)
+        return "it is no bot_core.images_t";
+    message->utime = take_int64(&in);
+    const int32_t n = take_int32(&in);
+    if (in.failed || message->utime <= 0)
+        return "its utime is out of range";
+    if (n < 2 || n > IMAGE_MESSAGE_MAX_IMAGES)
+        return "its count of images is out of range";
+    for (int32_t i = 0; i < n; i++)
+        types[i] = static_cast<int16_t>(static_cast<uint16_t>(take_number(&in, 2)));
+    if (in.failed)
+        return "it ends inside its image_types";
+    return take_images(&in, types, n, message);
+}
