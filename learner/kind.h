@@ -28,12 +28,17 @@ struct learner_ops {
     /* Bytes of a state with that many experts, without the wrapper's header. */
     size_t (*state_size)(const void *self, int n_experts);
     void (*save)(const void *self, unsigned char *buffer);
+    /* NULL for learners that stand on no body; see learner_give_body() and what follows it. */
+    int (*give_body)(void *self, const struct body *body, char *err, size_t err_size);
+    const struct body *(*body)(const void *self);
+    struct learner_samples (*kept_samples)(const void *self, int context);
     /* The wrapper has checked the number of experts, the size and the checksum. 0, or -1 and a line
      * in err with the state as it was. */
     int (*load)(void *self, int n_experts, const unsigned char *buffer, char *err, size_t err_size);
 };
 
 extern const struct learner_ops learner_imle_ops;
+extern const struct learner_ops learner_body_ops; /* IMLE until a body is found */
 extern const struct learner_ops learner_null_ops;
 extern const struct learner_ops learner_lwpr_ops;
 
@@ -52,8 +57,8 @@ struct learner_range {
 /* 0, or -1 and a line in err for the first that is out of range or NaN. */
 int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err, size_t err_size);
 
-/* The implementation of a kind; NULL for a number that is none. */
-const struct learner_ops *learner_ops_of(enum learner_kind kind);
+/* The implementation that a configuration asks for; NULL for a kind that is none. */
+const struct learner_ops *learner_ops_of(const struct learner_config *config);
 
 /* A hash (FNV-1a) of all that gives a saved state its meaning: every row but the capacity and those
  * that only shape predictions. */

@@ -34,11 +34,11 @@ struct envelope {
 static const char magic[8] = "RLEARNER";
 static const uint64_t version = 3;
 
-const struct learner_ops *learner_ops_of(enum learner_kind kind)
+const struct learner_ops *learner_ops_of(const struct learner_config *config)
 {
-    switch (kind) {
+    switch (config->kind) {
     case LEARNER_IMLE:
-        return &learner_imle_ops;
+        return config->features == LEARNER_BODY ? &learner_body_ops : &learner_imle_ops;
     case LEARNER_NULL:
         return &learner_null_ops;
     case LEARNER_LWPR:
@@ -49,7 +49,7 @@ const struct learner_ops *learner_ops_of(enum learner_kind kind)
 
 static size_t memory(const struct learner_config *config)
 {
-    return arena_footprint(sizeof(struct learner)) + learner_ops_of(config->kind)->memory(config);
+    return arena_footprint(sizeof(struct learner)) + learner_ops_of(config)->memory(config);
 }
 
 /* The configuration with no more experts than most_bytes has room for, but one at least. */
@@ -86,7 +86,7 @@ struct learner *learner_create(const struct learner_config *config, struct arena
         return NULL;
     struct learner *learner = arena_alloc(arena, sizeof *learner);
     if (learner) {
-        learner->ops = learner_ops_of(config->kind);
+        learner->ops = learner_ops_of(config);
         learner->config = bounded(*config);
         learner->self = learner->ops->create(&learner->config, arena);
     }
@@ -155,6 +155,26 @@ struct learner_statistics learner_get_statistics(const struct learner *learner)
     statistics.experts = learner->ops->experts(learner->self);
     statistics.capacity = learner->config.capacity;
     return statistics;
+}
+
+int learner_give_body(struct learner *learner, const struct body *body, char *err, size_t err_size)
+{
+    if (learner->ops->give_body)
+        return learner->ops->give_body(learner->self, body, err, err_size);
+    snprintf(err, err_size, "only a learner with experts: body takes one");
+    return -1;
+}
+
+const struct body *learner_body(const struct learner *learner)
+{
+    return learner->ops->body ? learner->ops->body(learner->self) : NULL;
+}
+
+struct learner_samples learner_kept_samples(const struct learner *learner, int context)
+{
+    struct learner_samples none = {0};
+
+    return learner->ops->kept_samples ? learner->ops->kept_samples(learner->self, context) : none;
 }
 
 static uint64_t checksum(const struct envelope *envelope, const unsigned char *state, size_t n)

@@ -36,6 +36,7 @@ enum learner_kind {
 enum learner_features {
     LEARNER_LINEAR,     /* the inputs themselves: the published algorithm */
     LEARNER_POLYNOMIAL, /* monomials up to `degree` under a Gaussian: a truncated kernel */
+    LEARNER_BODY,       /* polynomial until a body is given, a few numbers on that body then */
 };
 
 /* How experts are gathered into solutions. */
@@ -72,6 +73,19 @@ struct learner_lwpr_config {
     double tau_lambda;    /* how slowly, 0 .. 1; 0.9999 */
     double init_s2;       /* what a projection's sum of squares begins with, > 0; 1e-10 */
     double norm_out[LEARNER_MAX_OUTPUTS]; /* unit of an output, > 0; 1 */
+};
+
+/* What outputs are, to a learner with LEARNER_BODY. */
+enum learner_body_space {
+    LEARNER_BODY_PLACE, /* a place in space, all in one unit */
+    LEARNER_BODY_EYES,  /* yaw, pitch and disparity of a head that fixates (paper, eq. 10 to 12) */
+};
+
+/* Parameters of LEARNER_BODY alone: what the finder of the body is told. docs/body.md. */
+struct learner_body_config {
+    enum learner_body_space space; /* LEARNER_BODY_PLACE */
+    bool degrees;                  /* yaw and pitch are in degrees; false */
+    int starts;                    /* most random starts of one search, >= 1; 40 */
 };
 
 /* Every parameter. learner_config_default() fills all rows but psi0 and
@@ -127,6 +141,7 @@ struct learner_config {
     enum learner_kernels kernels; /* LEARNER_KERNELS_AUTO; what the machine lacks is refused */
 
     struct learner_lwpr_config lwpr;
+    struct learner_body_config body;
 };
 
 /* All defaults for these dimensions; psi0 and sigma0 are left at zero. */
@@ -203,6 +218,29 @@ struct learner_inverse {
  * predicting forward. Returns their number, 0 as above. */
 int learner_predict_inverse(struct learner *learner, const double *x,
                             struct learner_inverse *inverse);
+
+/* A robot's body: a chain of screws that somebody found from samples (learner/body/body.h). */
+struct body;
+
+/* From now on experts stand on this body (LEARNER_BODY alone): each is learned anew from the
+ * samples that it has kept, the first body's from those that came before it. Takes milliseconds, so
+ * it is not for a control loop. The body is copied. Returns 0, or -1 with one line in err and the
+ * learner as it was. */
+int learner_give_body(struct learner *learner, const struct body *body, char *err, size_t err_size);
+
+/* The body that it stands on; NULL when there is none. */
+const struct body *learner_body(const struct learner *learner);
+
+/* Samples that a LEARNER_BODY keeps to find a body from, spread over the joints: of context 0, 1,
+ * ... on a body, or all of them (context 0) before there is one. n is 0 for contexts that are not,
+ * and for other learners. They hold until the next update. */
+struct learner_samples {
+    bool rigid; /* the context's tip keeps its place in the last frame */
+    int n;
+    const double *z; /* n rows of n_inputs */
+    const double *x; /* n rows of n_outputs */
+};
+struct learner_samples learner_kept_samples(const struct learner *learner, int context);
 
 struct learner_statistics {
     int experts;       /* now */

@@ -19,8 +19,9 @@
       "most experts (LWPR: receptive fields of all outputs together)"),                            \
         X("most_bytes", OPTION_NUMBER, most_bytes, 1, HUGE_VAL, NULL,                              \
           "memory; lowers the capacity to what fits"),                                             \
-        X("experts", OPTION_CHOICE, features, 0, 0, "linear|polynomial",                           \
-          "what an expert is linear in: the inputs (as published) or their monomials"),            \
+        X("experts", OPTION_CHOICE, features, 0, 0, "linear|polynomial|body",                      \
+          "what an expert is linear in: the inputs (as published), their monomials, or a tip on "  \
+          "the body that is found from the samples"),                                              \
         X("degree", OPTION_INT, degree, 1, 6, NULL, "of the polynomial"),                          \
         X("alpha", OPTION_NUMBER, alpha, 0.9, 1, NULL, "forgetting exponent, 1 = none"),           \
         X("hyper_sigma", OPTION_NUMBER, hyper_sigma, 1e-3, HUGE_VAL, NULL,                         \
@@ -62,6 +63,12 @@
           "mean of slopes instead of the exact derivative"),                                       \
         X("kernels", OPTION_CHOICE, kernels, 0, 0, "auto|plain|avx2|avx512",                       \
           "vector width; all give the same bits"),                                                 \
+        X("body.space", OPTION_CHOICE, body.space, 0, 0, "place|eyes",                             \
+          "body: what outputs are, a place in space or yaw, pitch and disparity of a head"),       \
+        X("body.degrees", OPTION_BOOL, body.degrees, 0, 0, NULL,                                   \
+          "body: yaw and pitch are in degrees instead of radians"),                                \
+        X("body.starts", OPTION_INT, body.starts, 1, 10000, NULL,                                  \
+          "body: most random starts of one search for a body"),                                    \
         X("lwpr.init_d", OPTION_NUMBER, lwpr.init_d, 1e-6, 1e9, NULL,                              \
           "LWPR: metric of a new receptive field, per square of scale"),                           \
         X("lwpr.diagonal_only", OPTION_BOOL, lwpr.diagonal_only, 0, 0, NULL,                       \

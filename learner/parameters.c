@@ -35,6 +35,7 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
         .noise_share = 1.0,
         .em_pred_iterations = 2,
         .lwpr = learner_lwpr_default(n_inputs),
+        .body = {.space = LEARNER_BODY_PLACE, .starts = 40},
     };
 
     for (int i = 0; i < LEARNER_MAX_INPUTS; i++)
@@ -154,7 +155,7 @@ int learner_config_check(const struct learner_config *config, char *err, size_t 
     if (check_dimensions(config, err, err_size) != 0 || check_rows(config, err, err_size) != 0 ||
         check_scales(config, err, err_size) != 0 || check_variances(config, err, err_size) != 0)
         return -1;
-    return learner_ops_of(config->kind)->check(config, err, err_size);
+    return learner_ops_of(config)->check(config, err, err_size);
 }
 
 uint64_t learner_hash(uint64_t hash, const void *bytes, size_t n)
@@ -173,7 +174,7 @@ uint64_t learner_config_hash(const struct learner_config *config)
         config->n_inputs,
         config->n_outputs,
         (int)config->features,
-        config->features == LEARNER_POLYNOMIAL ? config->degree : 1,
+        config->features == LEARNER_LINEAR ? 1 : config->degree,
         config->alpha,
         config->hyper_sigma,
         config->hyper_psi,

@@ -1,11 +1,12 @@
-/* exp, log, log1p and the logarithm of gamma functions from plain arithmetic alone.
+/* exp, log, log1p, sine, cosine and the logarithm of gamma functions from plain arithmetic alone.
  *
  * A C library chooses its code by the processor, and the last bits of its results with it. These
  * use + - * / and bit operations in a fixed order, without branches in the inline ones so that a
  * loop over them becomes vector instructions: the same bits on every machine and vector width.
  *
  * Errors against the exact value, as tests/unit/learner/test_elementary.c measures and bounds them:
- * exp 1 ulp, log and log1p 2 ulp. Coefficients: tools/dev/elementary_coefficients.py. */
+ * exp 1 ulp, log and log1p 2 ulp, sine and cosine 2e-16 in all. Coefficients:
+ * tools/dev/elementary_coefficients.py. */
 #ifndef REACH_COMMON_BASE_ELEMENTARY_H
 #define REACH_COMMON_BASE_ELEMENTARY_H
 
@@ -127,6 +128,50 @@ static inline double elementary_log1p(double x)
 
     y = k * ELEMENTARY_LOG2_HIGH + (y + k * ELEMENTARY_LOG2_LOW);
     return x < (double)INFINITY ? y : x;
+}
+
+/* pi / 2 in three parts; the first two have 20 zero bits at their end, so that a whole number below
+ * 2^20 times one of them is exact. */
+#define ELEMENTARY_HALF_PI_HIGH 0x1.921fb54400000p+0
+#define ELEMENTARY_HALF_PI_MIDDLE 0x1.0b4611a600000p-34
+#define ELEMENTARY_HALF_PI_LOW 0x1.3198a2e037073p-69
+
+/* Sine and cosine of x, |x| <= 1e6; beyond that, and for what is no number, NaN.
+ *   x = k pi / 2 + r, |r| <= pi / 4, and Taylor's series of both at r: what follows the last term
+ * is under 1e-17. */
+static inline void elementary_sin_cos(double x, double *sine, double *cosine)
+{
+    const double whole = 0x1.8p52;
+    double lifted = x * 0x1.45f306dc9c883p-1 + whole;
+    double k = lifted - whole;
+    double r = ((x - k * ELEMENTARY_HALF_PI_HIGH) - k * ELEMENTARY_HALF_PI_MIDDLE) -
+               k * ELEMENTARY_HALF_PI_LOW;
+    double w = r * r;
+    double S = 1.0 / 355687428096000.0;
+    double C = 1.0 / 20922789888000.0;
+    uint64_t quarter = elementary_bits(lifted) & 3;
+
+    S = 1.0 / 1307674368000.0 - w * S;
+    S = 1.0 / 6227020800.0 - w * S;
+    S = 1.0 / 39916800.0 - w * S;
+    S = 1.0 / 362880.0 - w * S;
+    S = 1.0 / 5040.0 - w * S;
+    S = 1.0 / 120.0 - w * S;
+    S = 1.0 / 6.0 - w * S;
+    S = r - r * w * S;
+    C = 1.0 / 87178291200.0 - w * C;
+    C = 1.0 / 479001600.0 - w * C;
+    C = 1.0 / 3628800.0 - w * C;
+    C = 1.0 / 40320.0 - w * C;
+    C = 1.0 / 720.0 - w * C;
+    C = 1.0 / 24.0 - w * C;
+    C = 1.0 - (0.5 * w - w * w * C);
+    double first = quarter & 1 ? C : S;
+    double second = quarter & 1 ? S : C;
+    double usable = fabs(x) <= 1e6 ? 0.0 : (double)NAN;
+
+    *sine = (quarter & 2 ? -first : first) + usable;
+    *cosine = (quarter == 1 || quarter == 2 ? -second : second) + usable;
 }
 
 /* log Gamma(x) for x > 0; absolute error below 1e-13 (1 + |result|). */

@@ -49,7 +49,7 @@ const struct feature_map_ops feature_map_linear = {
 
 static const struct feature_map_ops *ops_of(const struct learner_config *config)
 {
-    return config->features == LEARNER_POLYNOMIAL ? &feature_map_polynomial : &feature_map_linear;
+    return config->features != LEARNER_LINEAR ? &feature_map_polynomial : &feature_map_linear;
 }
 
 int feature_map_count(const struct learner_config *config)

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "common/base/arena.h"
+#include "learner/finder/seeker.h"
 #include "tools/eval/csv.h"
 #include "tools/eval/model_file.h"
 #include "tools/eval/report.h"
@@ -21,6 +22,7 @@ struct run {
     struct learner_config config;
     struct arena *arena;
     struct learner *learner;
+    struct seeker seeker; /* of the body, with experts: body */
     struct csv_table train[REQUEST_MOST];
     struct csv_table sets[REQUEST_MOST];
     int file;   /* of the sample that is learned next */
@@ -108,6 +110,7 @@ static int create_learner(struct run *run)
     run->learner = learner_create(&run->config, run->arena, reason, sizeof reason);
     if (!run->learner)
         return fail(run, "the learner", reason);
+    seeker_init(&run->seeker, &run->config);
     return run->request.load
                ? model_file_load(run->request.load, run->learner, run->error, sizeof run->error)
                : 0;
@@ -131,6 +134,19 @@ static void clear_progress(const struct run *run)
         fputs("\r\033[K", stderr);
 }
 
+/* A search is no part of an update: it has a process of its own beside a robot. */
+static void look_for_body(struct run *run)
+{
+    int searches = run->seeker.searches;
+
+    seeker_look(&run->seeker, run->learner);
+    if (run->seeker.searches > searches && !run->request.quiet)
+        fprintf(stderr, "after %llu samples: %s; error %.2f of the noise, doubt %.2g, %d starts\n",
+                (unsigned long long)learner_get_statistics(run->learner).samples,
+                run->seeker.report.why, run->seeker.report.error, run->seeker.report.doubt,
+                run->seeker.report.starts);
+}
+
 static void learn_next(struct run *run)
 {
     while (run->row == run->train[run->file].n_rows) {
@@ -143,6 +159,8 @@ static void learn_next(struct run *run)
     int64_t start = durations_clock();
     learner_update(run->learner, z, x);
     durations_add(&run->updates, start);
+    if (run->config.features == LEARNER_BODY && run->config.kind == LEARNER_IMLE)
+        look_for_body(run);
     run->row++;
 }
 

@@ -54,6 +54,28 @@ START_TEST(log_is_within_two_ulp)
 }
 END_TEST
 
+START_TEST(sine_and_cosine_are_within_two_parts_in_1e16)
+{
+    double largest = 0.0;
+    double sine = 0.0;
+    double cosine = 0.0;
+
+    bed_seed();
+    for (int n = 0; n < POINTS; n++) {
+        double x = n % 2 ? bed_uniform(-1e6, 1e6) : bed_uniform(-8.0, 8.0);
+        elementary_sin_cos(x, &sine, &cosine);
+        keep_larger(&largest, (double)fabsl((long double)sine - sinl(x)));
+        keep_larger(&largest, (double)fabsl((long double)cosine - cosl(x)));
+    }
+    printf("sine and cosine: %.3g\n", largest);
+    ck_assert_double_le(largest, 2e-16);
+    elementary_sin_cos(INFINITY, &sine, &cosine);
+    ck_assert(isnan(sine) && isnan(cosine));
+    elementary_sin_cos(1.1e6, &sine, &cosine);
+    ck_assert(isnan(sine) && isnan(cosine));
+}
+END_TEST
+
 START_TEST(log1p_is_within_two_ulp)
 {
     double largest = 0.0;
@@ -107,8 +129,9 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {
-        exp_is_within_one_ulp, log_is_within_two_ulp, log1p_is_within_two_ulp,
-        ends_of_the_ranges,    gamma_functions,
+        exp_is_within_one_ulp,   log_is_within_two_ulp,
+        log1p_is_within_two_ulp, sine_and_cosine_are_within_two_parts_in_1e16,
+        ends_of_the_ranges,      gamma_functions,
     };
 
     return SUITE_RUN("elementary functions", tests);

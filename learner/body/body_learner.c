@@ -1,0 +1,193 @@
+#include "learner/body/body_learner.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "learner/body/vec3.h"
+
+struct learner_config body_meanwhile_config(const struct learner_config *config)
+{
+    struct learner_config meanwhile = *config;
+
+    meanwhile.features = LEARNER_POLYNOMIAL;
+    return meanwhile;
+}
+
+static int check(const struct learner_config *config, char *err, size_t err_size)
+{
+    struct learner_config meanwhile = body_meanwhile_config(config);
+
+    if (config->n_outputs != BODY_OUTPUTS) {
+        snprintf(err, err_size, "experts: body wants %d outputs, a place; here are %d",
+                 BODY_OUTPUTS, config->n_outputs);
+        return -1;
+    }
+    return learner_imle_ops.check(&meanwhile, err, err_size);
+}
+
+static size_t memory(const struct learner_config *config)
+{
+    struct learner_config meanwhile = body_meanwhile_config(config);
+    size_t waiting = kept_numbers(BODY_WAITING, config->n_inputs, BODY_OUTPUTS) * sizeof(double);
+
+    return arena_footprint(sizeof(struct body_learner)) + arena_footprint(waiting) +
+           contexts_memory(config->n_inputs) + learner_imle_ops.memory(&meanwhile);
+}
+
+static void *create(const struct learner_config *config, struct arena *arena)
+{
+    struct learner_config meanwhile = body_meanwhile_config(config);
+    size_t waiting = kept_numbers(BODY_WAITING, config->n_inputs, BODY_OUTPUTS) * sizeof(double);
+    struct body_learner *self = arena_alloc(arena, sizeof *self);
+    double *room = arena_alloc(arena, waiting);
+
+    if (!self || !room)
+        return NULL;
+    self->config = *config;
+    kept_place(&self->waiting, BODY_WAITING, config->n_inputs, BODY_OUTPUTS, room);
+    self->contexts =
+        contexts_create(config->n_inputs, config->capacity, kernels_of(config->kernels), arena);
+    self->meanwhile = learner_imle_ops.create(&meanwhile, arena);
+    return self->contexts && self->meanwhile ? self : NULL;
+}
+
+static enum learner_update_result update(void *self, const double *z, const double *x)
+{
+    struct body_learner *learner = self;
+
+    if (learner->found)
+        return contexts_learn(learner->contexts, z, x);
+    kept_add(&learner->waiting, z, x);
+    return learner_imle_ops.update(learner->meanwhile, z, x);
+}
+
+/* The strongest first. */
+static void insert(struct learner_prediction *prediction, const struct learner_solution *solution)
+{
+    int at = prediction->n_solutions++;
+
+    for (; at > 0 && prediction->solution[at - 1].weight < solution->weight; at--)
+        prediction->solution[at] = prediction->solution[at - 1];
+    prediction->solution[at] = *solution;
+}
+
+static int predict(void *self, const double *z, struct learner_prediction *prediction)
+{
+    struct body_learner *learner = self;
+    struct contexts *contexts = learner->contexts;
+    struct learner_solution solution;
+    struct chain_pose pose;
+    double all = 0.0;
+
+    if (!learner->found)
+        return learner_imle_ops.predict(learner->meanwhile, z, prediction);
+    chain_at(&learner->body.chain, z, &pose);
+    design_rows(&contexts->design, &learner->body, &pose, contexts->rows);
+    for (int j = 0; j < contexts->n; j++)
+        all += contexts->context[j].recent;
+    for (int j = 0; j < contexts->n && prediction->n_solutions < learner->config.n_solutions_max;
+         j++) {
+        if (!contexts_answer(contexts, j, z, &pose, &solution))
+            continue;
+        solution.weight = all > 0.0 ? contexts->context[j].recent / all : 1.0;
+        insert(prediction, &solution);
+    }
+    return prediction->n_solutions;
+}
+
+/* The mean of all contexts' answers, by weight. */
+static int predict_single(void *self, const double *z, struct learner_solution *mean)
+{
+    struct body_learner *learner = self;
+    struct learner_prediction prediction = {0};
+    int slopes = learner->config.n_inputs * BODY_OUTPUTS;
+
+    if (!learner->found)
+        return learner_imle_ops.predict_single(learner->meanwhile, z, mean);
+    if (predict(self, z, &prediction) == 0)
+        return 0;
+    *mean = (struct learner_solution){.principal = prediction.solution[0].principal, .weight = 1.0};
+    for (int s = 0; s < prediction.n_solutions; s++) {
+        const struct learner_solution *one = &prediction.solution[s];
+        mean->members++;
+        for (int r = 0; r < BODY_OUTPUTS; r++)
+            mean->value[r] += one->weight * one->value[r];
+        for (int i = 0; i < slopes; i++)
+            mean->jacobian[i] += one->weight * one->jacobian[i];
+    }
+    for (int s = 0; s < prediction.n_solutions; s++)
+        for (int r = 0; r < BODY_OUTPUTS; r++) {
+            const struct learner_solution *one = &prediction.solution[s];
+            double apart = one->value[r] - mean->value[r];
+            mean->variance[r] += one->weight * (one->variance[r] + apart * apart);
+        }
+    return 1;
+}
+
+static int experts(const void *self)
+{
+    const struct body_learner *learner = self;
+
+    return learner->found ? learner->contexts->n : learner_imle_ops.experts(learner->meanwhile);
+}
+
+static int give_body(void *self, const struct body *body, char *err, size_t err_size)
+{
+    struct body_learner *learner = self;
+    const struct kept *waiting = &learner->waiting;
+    bool first = !learner->found;
+
+    if (body->chain.n != learner->config.n_inputs) {
+        snprintf(err, err_size, "the body has %d joints, the learner %d inputs", body->chain.n,
+                 learner->config.n_inputs);
+        return -1;
+    }
+    if (body_check(body, err, err_size) != 0)
+        return -1;
+    learner->body = *body;
+    learner->found = true;
+    contexts_stand_on(learner->contexts, &learner->body);
+    for (int i = 0; first && i < waiting->n; i++)
+        contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,
+                       waiting->x + (ptrdiff_t)i * BODY_OUTPUTS);
+    return 0;
+}
+
+static const struct body *body_of(const void *self)
+{
+    const struct body_learner *learner = self;
+
+    return learner->found ? &learner->body : NULL;
+}
+
+static struct learner_samples kept_samples(const void *self, int context)
+{
+    const struct body_learner *learner = self;
+    const struct kept *kept = context == 0 ? &learner->waiting : NULL;
+
+    if (learner->found)
+        kept = context < learner->contexts->n ? &learner->contexts->context[context].kept : NULL;
+    if (!kept)
+        return (struct learner_samples){0};
+    bool rigid = !learner->found || learner->contexts->context[context].tied.chosen == 0;
+    return (struct learner_samples){rigid, kept->n, kept->z, kept->x};
+}
+
+const struct learner_ops learner_body_ops = {
+    .name = "body",
+    .check = check,
+    .memory = memory,
+    .create = create,
+    .update = update,
+    .predict = predict,
+    .predict_single = predict_single,
+    .predict_inverse = body_predict_inverse,
+    .experts = experts,
+    .state_size = body_state_size,
+    .give_body = give_body,
+    .body = body_of,
+    .kept_samples = kept_samples,
+    .save = body_save,
+    .load = body_load,
+};

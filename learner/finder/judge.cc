@@ -1,0 +1,195 @@
+#include "learner/finder/judge.h"
+
+#include "learner/body/vec3.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace finder
+{
+
+double misfit(const Data &data, const Candidate &candidate, bool apart, double gross)
+{
+    std::vector<double> squares;
+
+    for (const Sample &sample : data.samples) {
+        double left[3];
+        if (sample.apart != apart)
+            continue;
+        if (!residual(data, candidate.body, candidate.tips[(size_t)sample.context], sample, left,
+                      nullptr, nullptr))
+            return 1e9;
+        squares.push_back((left[0] * left[0] + left[1] * left[1] + left[2] * left[2]) / 3);
+    }
+    if (squares.empty())
+        return 1e9;
+    std::sort(squares.begin(), squares.end());
+    size_t n = squares.size() - (size_t)(gross * (double)squares.size());
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += squares[i];
+    return std::sqrt(sum / (double)n);
+}
+
+namespace
+{
+
+/* Directions that no sample tells: a joint's point slides along its axis, and what follows it back;
+ * arm and neck go up together; the pitch's axis slides along itself. They are pinned, for whatever
+ * stands on the body would otherwise carry a doubt that is none. */
+Eigen::MatrixXd gauge(const Data &data, const Candidate &candidate, int n_all)
+{
+    const struct chain &chain = candidate.body.chain;
+    const int of_eyes = data.settings->sees ? 2 : 0;
+    Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(data.n + data.n + of_eyes, n_all);
+
+    for (int i = 0; i < data.n; i++) {
+        Eigen::Map<const Eigen::Vector3d> w(chain.axis[i]);
+        directions.row(i).segment<3>(3 * i) = w.transpose(); /* an axis has no length */
+        directions.row(data.n + i).segment<3>(3 * (data.n + i)) = w.transpose();
+        if (i + 1 < data.n)
+            directions.row(data.n + i).segment<3>(3 * (data.n + i + 1)) = -w.transpose();
+        else
+            for (int c = 0; c < data.contexts; c++)
+                directions.row(data.n + i).segment<3>(data.unknowns() + 3 * c) = -w.transpose();
+    }
+    if (of_eyes > 0) {
+        const int neck = 6 * data.n;
+        const int eye = neck + 3;
+        directions(2 * data.n, neck + 2) = directions(2 * data.n, 3 * data.n + 2) = 1; /* up */
+        directions(2 * data.n + 1, neck + 1) = 1; /* along the pitch's axis */
+        directions(2 * data.n + 1, eye + 1) = -1;
+    }
+    return directions;
+}
+
+Eigen::MatrixXd information(const Data &data, double scale, const Candidate &candidate)
+{
+    const int n = data.unknowns();
+    const int n_all = n + 3 * data.contexts;
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(n_all, n_all);
+
+    for (const Sample &sample : data.samples) {
+        double left[3];
+        double by_tip[9];
+        std::vector<double> by_unknowns(3 * (size_t)n);
+        if (!residual(data, candidate.body, candidate.tips[(size_t)sample.context], sample, left,
+                      by_unknowns.data(), by_tip))
+            continue;
+        Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n_all);
+        J.leftCols(n) = Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>>(
+            by_unknowns.data(), 3, n);
+        J.middleCols(n + 3 * sample.context, 3) =
+            Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(by_tip);
+        C += J.transpose() * J / (scale * scale);
+    }
+    for (int i = 0; i < n_all; i++) {
+        double sd = i < 3 * data.n || (i >= 6 * data.n && i < n) ? prior_eye : 3;
+        C(i, i) += 1 / (sd * sd);
+    }
+    constexpr double pinned = 1e-6;
+    Eigen::MatrixXd G = gauge(data, candidate, n_all);
+    return C + G.transpose() * G / (pinned * pinned);
+}
+
+/* What was seen at the posture nearest to q. */
+Eigen::Vector3d nearest_output(const Data &data, const double *q)
+{
+    const Sample *nearest = nullptr;
+    double least = INFINITY;
+
+    for (const Sample &sample : data.samples) {
+        double distance = 0;
+        for (int i = 0; i < data.n; i++)
+            distance += (sample.z[i] - q[i]) * (sample.z[i] - q[i]);
+        if (distance < least) {
+            least = distance;
+            nearest = &sample;
+        }
+    }
+    return nearest->x;
+}
+
+/* L L' = the inverse of C. */
+Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd &C)
+{
+    Eigen::MatrixXd inverse = C.ldlt().solve(Eigen::MatrixXd::Identity(C.rows(), C.cols()));
+    Eigen::MatrixXd even = (inverse + inverse.transpose()) / 2;
+
+    even.diagonal().array() += 1e-14;
+    return even.llt().matrixL();
+}
+
+/* How far outputs lie from their mean, rms; of a place, one length for all. */
+Eigen::Vector3d spread_of(const Data &data)
+{
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    double n = (double)data.samples.size();
+
+    if (!data.settings->sees)
+        return Eigen::Vector3d::Ones();
+    for (const Sample &sample : data.samples)
+        squares += (sample.x - data.middle).cwiseAbs2();
+    return (squares / n).cwiseSqrt().cwiseMax(1e-9);
+}
+
+/* Squared standard deviations of what context 0 has at the joints q, over `spread`, their mean;
+ * below zero where the eyes cannot look. */
+double variance_at(const Data &data, const Candidate &candidate, const Eigen::MatrixXd &root,
+                   const Eigen::Vector3d &spread, const double *q)
+{
+    const int n = data.unknowns();
+    Sample sample{q, nearest_output(data, q), 0, false};
+    chain_pose pose;
+    double tip[3];
+    double ignored[9];
+    double left[3];
+    double by_tip[9];
+    std::vector<double> by_unknowns(3 * (size_t)n);
+
+    chain_at(&candidate.body.chain, q, &pose);
+    mat3_apply(pose.turn[data.n], candidate.tips[0].data(), tip);
+    vec3_add(1, pose.p, tip);
+    if (!body_output(&candidate.body, tip, sample.x.data(), ignored) ||
+        !residual(data, candidate.body, candidate.tips[0], sample, left, by_unknowns.data(),
+                  by_tip))
+        return -1;
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, root.rows());
+    J.leftCols(n) = Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>>(
+        by_unknowns.data(), 3, n);
+    J.middleCols(n, 3) = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(by_tip);
+    return (data.noise.cwiseQuotient(spread).asDiagonal() * (J * root)).squaredNorm() / 3;
+}
+
+} // namespace
+
+/* What stands on the body has tips of its own, which give way to the chain as the known tips do: so
+ * the body's covariance is that of the chain with these tips given. The doubt is that of all
+ * together. */
+double judge(const Data &data, double scale, random_state &random, Candidate &candidate)
+{
+    const int n = data.unknowns();
+    const Eigen::Vector3d spread = spread_of(data);
+    Eigen::MatrixXd C = information(data, scale, candidate);
+    Eigen::MatrixXd given_tips = root_of_inverse(C.topLeftCorner(n, n));
+    Eigen::MatrixXd all = root_of_inverse(C);
+    std::vector<double> q((size_t)data.n);
+    double sum = 0;
+    int seen = 0;
+    constexpr int postures = 200;
+
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k <= i; k++)
+            candidate.body.root[i * (i + 1) / 2 + k] = given_tips(i, k);
+    for (int p = 0; p < postures; p++) {
+        for (size_t i = 0; i < q.size(); i++)
+            q[i] = data.joint_middle[i] + random_uniform(&random, -1, 1) * data.joint_range[i];
+        double variance = variance_at(data, candidate, all, spread, q.data());
+        sum += std::max(variance, 0.0);
+        seen += variance >= 0;
+    }
+    return seen > postures / 2 ? std::sqrt(sum / seen) : 1e9;
+}
+
+} // namespace finder
