@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "learner/base/hash.h"
+
 struct learner {
     const struct learner_ops *ops;
     void *self;
@@ -33,19 +35,6 @@ struct envelope {
 
 static const char magic[8] = "RLEARNER";
 static const uint64_t version = 3;
-
-const struct learner_ops *learner_ops_of(enum learner_kind kind)
-{
-    switch (kind) {
-    case LEARNER_IMLE:
-        return &learner_imle_ops;
-    case LEARNER_NULL:
-        return &learner_null_ops;
-    case LEARNER_LWPR:
-        return &learner_lwpr_ops;
-    }
-    return NULL;
-}
 
 static size_t memory(const struct learner_config *config)
 {

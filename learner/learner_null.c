@@ -9,6 +9,12 @@ static int null_check(const struct learner_config *config, char *err, size_t err
     return 0;
 }
 
+static uint64_t null_hash(const struct learner_config *config, uint64_t hash)
+{
+    (void)config;
+    return hash;
+}
+
 static size_t null_memory(const struct learner_config *config)
 {
     (void)config;
@@ -86,6 +92,7 @@ static int null_load(void *self, int n_experts, const unsigned char *buffer, cha
 const struct learner_ops learner_null_ops = {
     .name = "null",
     .check = null_check,
+    .hash = null_hash,
     .memory = null_memory,
     .create = null_create,
     .update = null_update,

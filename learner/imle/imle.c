@@ -1,8 +1,11 @@
-/* The infinite mixture of experts behind the learner's interface: creation and the table. */
+/* The infinite mixture of experts behind the learner's interface: checks, creation and the
+ * table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "learner/base/hash.h"
+#include "learner/base/ranges.h"
 #include "learner/imle/chi2.h"
 #include "learner/imle/imle.h"
 
@@ -15,8 +18,25 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
     m->small = m->p <= LEARNER_MAX_INPUTS;
 }
 
+static int check_variances(const struct learner_config *config, char *err, size_t err_size)
+{
+    for (int i = 0; i < config->n_inputs; i++) {
+        const struct learner_range range = {"sigma0", config->sigma0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    for (int i = 0; i < config->n_outputs; i++) {
+        const struct learner_range range = {"psi0", config->psi0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 static int check(const struct learner_config *config, char *err, size_t err_size)
 {
+    if (check_variances(config, err, err_size) != 0)
+        return -1;
     if (!kernels_of(config->kernels)) {
         snprintf(err, err_size, "kernels is %d: this machine has no such vectors",
                  (int)config->kernels);
@@ -27,6 +47,12 @@ static int check(const struct learner_config *config, char *err, size_t err_size
     snprintf(err, err_size, "degree %d of %d inputs gives more than %d features: lower the degree",
              config->degree, config->n_inputs, FEATURE_MAP_MAX);
     return -1;
+}
+
+static uint64_t hash_variances(const struct learner_config *config, uint64_t hash)
+{
+    hash = learner_hash(hash, config->sigma0, (size_t)config->n_inputs * sizeof(double));
+    return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
 }
 
 static size_t memory(const struct learner_config *config)
@@ -88,6 +114,7 @@ static int experts(const void *self)
 const struct learner_ops learner_imle_ops = {
     .name = "imle",
     .check = check,
+    .hash = hash_variances,
     .memory = memory,
     .create = create,
     .update = update,

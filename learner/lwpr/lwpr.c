@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "common/base/elementary.h"
+#include "learner/base/hash.h"
+#include "learner/base/ranges.h"
 #include "learner/lwpr/lwpr.h"
 
 struct learner_lwpr_config learner_lwpr_default(int n_inputs)
@@ -48,10 +50,10 @@ static int check(const struct learner_config *config, char *err, size_t err_size
         if (learner_check_ranges(&norm, 1, err, err_size) != 0)
             return -1;
     }
-    return learner_check_ranges(ranges, sizeof ranges / sizeof ranges[0], err, err_size);
+    return LEARNER_CHECK_RANGES(ranges, err, err_size);
 }
 
-uint64_t learner_lwpr_hash(uint64_t hash, const struct learner_config *config)
+static uint64_t hash_parameters(const struct learner_config *config, uint64_t hash)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
     const double numbers[] = {
@@ -131,6 +133,7 @@ static int experts(const void *self)
 const struct learner_ops learner_lwpr_ops = {
     .name = "lwpr",
     .check = check,
+    .hash = hash_parameters,
     .memory = memory,
     .create = create,
     .update = update,
