@@ -1,6 +1,6 @@
-/* A receptive field's distance metric D = M'M, learned by stochastic gradient descent on the
- * leave-one-out error of the field's regression plus a penalty on large D (table 4 of the paper).
- */
+/* A receptive field's distance metric D = M'M: what it makes of a vector, and how it is learned, by
+ * stochastic gradient descent on the leave-one-out error of the field's regression plus a penalty
+ * on large D (table 4 of the paper). */
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +13,50 @@ static const double largest_change = 0.07;
 /* 1 - h of a sample, h the leverage, counts as at least this where the memory terms divide by it: a
  * sample that makes its own fit would otherwise outweigh all others for thousands of samples. */
 static const double least_rest = 0.5;
+
+/* M v, for M upper triangular by rows. */
+static void root_times(int d, const double *root, const double *v, double *Mv)
+{
+    for (int i = 0; i < d; i++) {
+        double sum = 0.0;
+        for (int k = i; k < d; k++)
+            sum += *root++ * v[k];
+        Mv[i] = sum;
+    }
+}
+
+double lwpr_distance(const struct lwpr *m, const struct lwpr_field *f, const double *v)
+{
+    double Mv[LEARNER_MAX_INPUTS];
+    double q = 0.0;
+
+    if (m->p.diagonal_only)
+        for (int i = 0; i < m->d; i++)
+            Mv[i] = f->root[i] * v[i];
+    else
+        root_times(m->d, f->root, v, Mv);
+    for (int i = 0; i < m->d; i++)
+        q += Mv[i] * Mv[i];
+    return q;
+}
+
+void lwpr_metric_times(const struct lwpr *m, const struct lwpr_field *f, const double *v,
+                       double *Dv)
+{
+    const double *root = f->root;
+    double Mv[LEARNER_MAX_INPUTS];
+
+    if (m->p.diagonal_only) {
+        for (int i = 0; i < m->d; i++)
+            Dv[i] = root[i] * root[i] * v[i];
+        return;
+    }
+    root_times(m->d, root, v, Mv);
+    memset(Dv, 0, (size_t)m->d * sizeof *Dv);
+    for (int i = 0; i < m->d; i++)
+        for (int k = i; k < m->d; k++)
+            Dv[k] += *root++ * Mv[i];
+}
 
 int lwpr_next_diagonal(const struct lwpr *m, int diagonal, int row)
 {
