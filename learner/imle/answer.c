@@ -144,7 +144,8 @@ double imle_expert_misfit(struct imle *m, int j)
     return *imle_expert_misfits(m, j);
 }
 
-void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input)
+/* by_input[d] = dphi' by_feature[p]: from derivatives by features to those by inputs. */
+static void to_inputs(const struct imle *m, const double *by_feature, double *by_input)
 {
     if (m->config.features == LEARNER_LINEAR) /* dphi is diagonal */
         for (int i = 0; i < m->d; i++)
@@ -158,7 +159,7 @@ void imle_expert_slope(struct imle *m, int j)
     const double *W = m->W + (size_t)j * (size_t)m->p * (size_t)m->D;
 
     for (int i = 0; i < m->D; i++)
-        imle_to_inputs(m, W + (size_t)i * (size_t)m->p, m->slope + (size_t)i * (size_t)m->d);
+        to_inputs(m, W + (size_t)i * (size_t)m->p, m->slope + (size_t)i * (size_t)m->d);
 }
 
 void imle_expert_whiten(struct imle *m, int j)
@@ -172,7 +173,8 @@ void imle_expert_whiten(struct imle *m, int j)
     m->leverage = m->kernels->dot(m->p, m->white, m->white);
 }
 
-double imle_expert_leverage(struct imle *m, int j)
+/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. */
+static double leverage_of(struct imle *m, int j)
 {
     if (m->small) {
         lever_block(m, j);
@@ -184,5 +186,16 @@ double imle_expert_leverage(struct imle *m, int j)
 
 double imle_expert_gamma(struct imle *m, int j)
 {
-    return m->config.noise_share * (imle_expert_leverage(m, j) + 1.0 / m->strengths[j].S);
+    return m->config.noise_share * (leverage_of(m, j) + 1.0 / m->strengths[j].S);
+}
+
+void imle_gamma_slope(struct imle *m, struct imle_answer *answer)
+{
+    if (answer->sloped)
+        return;
+    imle_expert_whiten(m, answer->expert);
+    to_inputs(m, m->gain, answer->dgamma);
+    for (int i = 0; i < m->d; i++)
+        answer->dgamma[i] *= 2.0 * m->config.noise_share;
+    answer->sloped = true;
 }

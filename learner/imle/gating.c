@@ -1,8 +1,10 @@
 /* Which experts are near: what a scan over all of them reads, and the scan. Experts lie in blocks
- * of eight, one a lane, so that eight distances are computed at once (kernels.h). */
+ * of eight, one a lane, so that eight distances are computed at once (kernels.h). Densities are
+ * logarithms: far from all experts they underflow, and their ratios still matter. */
 #include <math.h>
 #include <string.h>
 
+#include "common/base/elementary.h"
 #include "learner/imle/imle.h"
 #include "learner/imle/triangle.h"
 
@@ -92,4 +94,22 @@ void imle_gate_precision(const struct imle *m, int j, double *packed)
                     root[c * KERNEL_LANES] * root[k * KERNEL_LANES];
         root += (size_t)(r + 1) * KERNEL_LANES;
     }
+}
+
+double imle_log_outlier_input(const struct imle *m)
+{
+    double value = m->log_c_input;
+
+    for (int i = 0; i < m->d; i++)
+        value -= 0.5 * elementary_log(m->sigma_bar[i]);
+    return value;
+}
+
+double imle_log_outlier_joint(const struct imle *m)
+{
+    double value = imle_log_outlier_input(m) - m->log_c_input + m->log_c_joint;
+
+    for (int i = 0; i < m->D; i++)
+        value -= 0.5 * elementary_log(m->psi_bar[i]);
+    return value;
 }

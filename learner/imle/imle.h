@@ -178,6 +178,10 @@ double imle_gate_pull(const struct imle *m, int j, const double *z, double *pull
 /* Sigma^-1 of expert j, packed (imle/triangle.h). */
 void imle_gate_precision(const struct imle *m, int j, double *packed);
 
+/* log of the outlier densities p_out(z, x) and p_out(z). */
+double imle_log_outlier_joint(const struct imle *m);
+double imle_log_outlier_input(const struct imle *m);
+
 /* imle/answer.c ---------------------------------------------------------------------------- */
 
 /* The features m->phi are new, and x (or NULL) is what they lead to: nothing is known yet. */
@@ -200,14 +204,8 @@ void imle_expert_output(struct imle *m, int j, double *xhat);
 double imle_expert_misfit(struct imle *m, int j);
 const double *imle_expert_misfits(struct imle *m, int j);
 
-/* by_input[d] = dphi' by_feature[p]: from derivatives by features to those by inputs. */
-void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input);
-
 /* d xhat / d z of expert j at the derivative m->dphi: W dphi', D x d row-major, into m->slope. */
 void imle_expert_slope(struct imle *m, int j);
-
-/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. */
-double imle_expert_leverage(struct imle *m, int j);
 
 /* Leaves G (phi - phibar) of expert j in m->white and C^-1 (phi - phibar) in m->gain. */
 void imle_expert_whiten(struct imle *m, int j);
@@ -215,11 +213,8 @@ void imle_expert_whiten(struct imle *m, int j);
 /* gamma_j = noise_share (leverage + 1 / S_h): the regression's own uncertainty, in units of Psi. */
 double imle_expert_gamma(struct imle *m, int j);
 
-/* imle_density.c --------------------------------------------------------------------------- */
-
-/* log of the outlier densities p_out(z, x) and p_out(z). */
-double imle_log_outlier_joint(const struct imle *m);
-double imle_log_outlier_input(const struct imle *m);
+/* The answer's dgamma; the query's dphi must be in m->dphi. */
+void imle_gamma_slope(struct imle *m, struct imle_answer *answer);
 
 /* imle/priors.c ---------------------------------------------------------------------------- */
 
@@ -232,9 +227,6 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 /* imle/predict.c --------------------------------------------------------------------------- */
 int imle_predict(struct imle *m, const double *z, struct learner_prediction *prediction);
 int imle_predict_single(struct imle *m, const double *z, struct learner_solution *solution);
-
-/* The answer's dgamma; the query's dphi must be in m->dphi. */
-void imle_gamma_slope(struct imle *m, struct imle_answer *answer);
 
 /* imle/cluster_split.c, imle/cluster_leader.c ------------------------------------------------ */
 

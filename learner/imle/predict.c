@@ -63,17 +63,6 @@ static int choose_experts(struct imle *m, double limit)
     return n < IMLE_MOST_ANSWERS ? n : IMLE_MOST_ANSWERS;
 }
 
-void imle_gamma_slope(struct imle *m, struct imle_answer *answer)
-{
-    if (answer->sloped)
-        return;
-    imle_expert_whiten(m, answer->expert);
-    imle_to_inputs(m, m->gain, answer->dgamma);
-    for (int i = 0; i < m->d; i++)
-        answer->dgamma[i] *= 2.0 * m->config.noise_share;
-    answer->sloped = true;
-}
-
 static void add_answer(struct imle *m, int j)
 {
     struct imle_answer *answer = &m->answers[m->n_answers++];
