@@ -14,7 +14,7 @@ extern "C" {
 #define LEARNER_LARGEST_FEATURE 1e60
 
 struct learner_ops {
-    const char *name;
+    uint64_t number; /* of the kind in a saved state and its hash; never that of another */
     /* 0, or -1 and a line in err; ranges of rows that are one number have been checked. */
     int (*check)(const struct learner_config *config, char *err, size_t err_size);
     /* Continues learner_config_hash() with the rows that are this kind's own. */
@@ -36,7 +36,6 @@ struct learner_ops {
 };
 
 extern const struct learner_ops learner_imle_ops;
-extern const struct learner_ops learner_null_ops;
 extern const struct learner_ops learner_lwpr_ops;
 
 /* Defaults of config.lwpr. */

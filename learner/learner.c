@@ -19,7 +19,7 @@ struct learner {
 struct envelope {
     char magic[8];
     uint64_t version;
-    uint64_t kind;
+    uint64_t kind; /* learner_ops.number */
     uint64_t n_inputs;
     uint64_t n_outputs;
     uint64_t parameters; /* learner_config_hash() */
@@ -166,7 +166,7 @@ size_t learner_save(const struct learner *learner, void *buffer, size_t size)
     unsigned char *state = (unsigned char *)buffer + sizeof(struct envelope);
     struct envelope envelope = {
         .version = version,
-        .kind = (uint64_t)learner->config.kind,
+        .kind = learner->ops->number,
         .n_inputs = (uint64_t)learner->config.n_inputs,
         .n_outputs = (uint64_t)learner->config.n_outputs,
         .parameters = learner_config_hash(&learner->config),
@@ -202,7 +202,7 @@ static const char *envelope_fault(const struct learner *learner, const struct en
         return "cut short or with bytes too many";
     if (envelope->checksum != checksum(envelope, state, size - sizeof *envelope))
         return "damaged: the checksum does not match";
-    if (envelope->kind != (uint64_t)config->kind)
+    if (envelope->kind != learner->ops->number)
         return "saved by another kind of learner";
     if (envelope->n_inputs != (uint64_t)config->n_inputs ||
         envelope->n_outputs != (uint64_t)config->n_outputs)

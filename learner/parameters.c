@@ -125,8 +125,9 @@ int learner_config_check(const struct learner_config *config, char *err, size_t 
 
 uint64_t learner_config_hash(const struct learner_config *config)
 {
+    const struct learner_ops *ops = learner_ops_of(config->kind);
     const double numbers[] = {
-        (int)config->kind,
+        (double)ops->number,
         config->n_inputs,
         config->n_outputs,
         (int)config->features,
@@ -145,5 +146,5 @@ uint64_t learner_config_hash(const struct learner_config *config)
 
     hash = learner_hash(hash, config->reference, inputs);
     hash = learner_hash(hash, config->scale, inputs);
-    return learner_ops_of(config->kind)->hash(config, hash);
+    return ops->hash(config, hash);
 }

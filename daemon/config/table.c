@@ -145,7 +145,7 @@ static const struct option_row table[] = {
     NUMBER("task.scale_position", scale_position, "m", "0.2", 1e-6, 1e4,
            "the rows of a Cartesian task space are divided by this, likewise"),
 
-    CHOICE("learner.kind", learner_kind, "imle", "imle|null|lwpr", "learning algorithm"),
+    CHOICE("learner.kind", learner_kind, "imle", "imle|lwpr", "learning algorithm"),
     LEARNER_ROWS(LEARNER_ROW),
     NUMBER("learner.noise_angle", learner_noise_angle, "deg", "1", 1e-6, 90,
            "standard deviation of the angles about an expert: square root of Psi_0"),

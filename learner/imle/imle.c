@@ -112,7 +112,7 @@ static int experts(const void *self)
 }
 
 const struct learner_ops learner_imle_ops = {
-    .name = "imle",
+    .number = 0,
     .check = check,
     .hash = hash_variances,
     .memory = memory,

@@ -131,7 +131,7 @@ static int experts(const void *self)
 }
 
 const struct learner_ops learner_lwpr_ops = {
-    .name = "lwpr",
+    .number = 2,
     .check = check,
     .hash = hash_parameters,
     .memory = memory,

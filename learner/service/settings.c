@@ -14,7 +14,7 @@ _Static_assert(offsetof(struct settings, learner) == 0, "see LEARNER_OPTION_ROWS
 static const struct option_row table[] = {
     ROW("inputs", OPTION_INT, n_inputs, NULL, 1, LEARNER_MAX_INPUTS, NULL, "numbers in z"),
     ROW("outputs", OPTION_INT, n_outputs, NULL, 1, LEARNER_MAX_OUTPUTS, NULL, "numbers in x"),
-    ROW("kind", OPTION_CHOICE, kind, "imle", 0, 0, "imle|null|lwpr", "learning algorithm"),
+    ROW("kind", OPTION_CHOICE, kind, "imle", 0, 0, "imle|lwpr", "learning algorithm"),
     ROW("model.directory", OPTION_TEXT, model_directory, "", 0, 0, NULL,
         "where the model is kept as it is learned, and saved; empty: neither"),
     ROW("model.snapshot", OPTION_INT, model_snapshot, "500", 1, 1000000, NULL,
