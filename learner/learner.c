@@ -36,20 +36,20 @@ struct envelope {
 static const char magic[8] = "RLEARNER";
 static const uint64_t version = 3;
 
-static size_t memory(const struct learner_config *config)
+static size_t memory_of(const struct learner_config *config)
 {
     return arena_footprint(sizeof(struct learner)) + learner_ops_of(config->kind)->memory(config);
 }
 
 /* The configuration with no more experts than most_bytes has room for, but one at least. */
-static struct learner_config bounded(struct learner_config config)
+static struct learner_config bounded_by_memory(struct learner_config config)
 {
     int low = 1;
     int high = config.capacity;
 
     while (low < high) {
         config.capacity = high - (high - low) / 2;
-        if ((double)memory(&config) <= config.most_bytes)
+        if ((double)memory_of(&config) <= config.most_bytes)
             low = config.capacity;
         else
             high = config.capacity - 1;
@@ -64,8 +64,8 @@ size_t learner_memory(const struct learner_config *config)
 
     if (learner_config_check(config, ignored, sizeof ignored) != 0)
         return 0;
-    struct learner_config within = bounded(*config);
-    return memory(&within);
+    struct learner_config within = bounded_by_memory(*config);
+    return memory_of(&within);
 }
 
 struct learner *learner_create(const struct learner_config *config, struct arena *arena, char *err,
@@ -76,7 +76,7 @@ struct learner *learner_create(const struct learner_config *config, struct arena
     struct learner *learner = arena_alloc(arena, sizeof *learner);
     if (learner) {
         learner->ops = learner_ops_of(config->kind);
-        learner->config = bounded(*config);
+        learner->config = bounded_by_memory(*config);
         learner->self = learner->ops->create(&learner->config, arena);
     }
     if (!learner || !learner->self) {

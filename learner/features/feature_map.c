@@ -80,7 +80,7 @@ struct feature_map *feature_map_create(const struct learner_config *config, stru
     return map->ops->prepare(map, arena) == 0 ? map : NULL;
 }
 
-static void scaled(const struct feature_map *map, const double *z, double *u)
+static void scale_input(const struct feature_map *map, const double *z, double *u)
 {
     for (int i = 0; i < map->n_inputs; i++)
         u[i] = (z[i] - map->reference[i]) * map->per_scale[i];
@@ -90,7 +90,7 @@ void feature_map_evaluate(const struct feature_map *map, const double *z, double
 {
     double u[LEARNER_MAX_INPUTS];
 
-    scaled(map, z, u);
+    scale_input(map, z, u);
     map->ops->evaluate(map, u, phi);
 }
 
@@ -99,7 +99,7 @@ void feature_map_derivative(const struct feature_map *map, const double *z, cons
 {
     double u[LEARNER_MAX_INPUTS];
 
-    scaled(map, z, u);
+    scale_input(map, z, u);
     map->ops->derivative(map, u, phi, dphi);
     for (int i = 0; i < map->n_inputs; i++)
         for (int k = 0; k < map->n_features; k++)

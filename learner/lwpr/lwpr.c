@@ -31,7 +31,7 @@ struct learner_lwpr_config learner_lwpr_default(int n_inputs)
 }
 
 /* What rows of each other ask; each alone has been checked. */
-static int check(const struct learner_config *config, char *err, size_t err_size)
+static int check_parameters(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
     /* A projection counts after 2 d samples: what is forgotten sooner would never count. */
@@ -132,7 +132,7 @@ static int experts(const void *self)
 
 const struct learner_ops learner_lwpr_ops = {
     .number = 2,
-    .check = check,
+    .check = check_parameters,
     .hash = hash_parameters,
     .memory = memory,
     .create = create,

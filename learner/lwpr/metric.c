@@ -136,7 +136,7 @@ void lwpr_metric_gradient(const struct lwpr *m, const struct lwpr_field *f,
 
 /* How far one sample's gradient is to be believed: its error before and after it was learned are
  * alike once the regression has settled, and far apart while the sample makes its own fit. */
-static double trust(const struct lwpr_step *step)
+static double trust_in_sample(const struct lwpr_step *step)
 {
     double before = step->e_cv * step->e_cv;
     double ratio = before > 0.0 ? fmin(step->e * step->e / before, 1.0) : 0.0;
@@ -153,8 +153,8 @@ static bool too_far(const struct lwpr *m, const struct lwpr_field *f, double sca
     return false;
 }
 
-static void descend(const struct lwpr *m, const struct lwpr_field *f, double scale,
-                    const double *gradient)
+static void descend_gradient(const struct lwpr *m, const struct lwpr_field *f, double scale,
+                             const double *gradient)
 {
     bool refused = too_far(m, f, scale, gradient);
 
@@ -187,11 +187,11 @@ void lwpr_metric_learn(const struct lwpr *m, const struct lwpr_field *f,
                        const struct lwpr_step *step)
 {
     double gradient[LEARNER_MAX_INPUTS * (LEARNER_MAX_INPUTS + 1) / 2];
-    double scale = trust(step);
+    double scale = trust_in_sample(step);
 
     if (step->mature == 0)
         return;
     lwpr_metric_gradient(m, f, step, gradient);
-    descend(m, f, scale, gradient);
+    descend_gradient(m, f, scale, gradient);
     remember_sample(f, scale, step);
 }
