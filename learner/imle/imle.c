@@ -33,7 +33,7 @@ static int check_variances(const struct learner_config *config, char *err, size_
     return 0;
 }
 
-static int check(const struct learner_config *config, char *err, size_t err_size)
+static int check_parameters(const struct learner_config *config, char *err, size_t err_size)
 {
     if (check_variances(config, err, err_size) != 0)
         return -1;
@@ -72,12 +72,12 @@ static void *create(const struct learner_config *config, struct arena *arena)
         return NULL;
     set_dimensions(m, config);
     m->kernels = kernels_of(config->kernels);
-    m->whitened = -1;
+    m->query.whitened = -1;
     m->map = feature_map_create(config, arena);
     if (!m->map || imle_layout(m, arena) == 0)
         return NULL;
-    memcpy(m->sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
-    memcpy(m->psi_bar, config->psi0, (size_t)m->D * sizeof(double));
+    memcpy(m->state.sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
+    memcpy(m->state.psi_bar, config->psi0, (size_t)m->D * sizeof(double));
     m->log_c_joint = -0.5 * chi2_quantile(m->d + m->D, 1.0 - config->p0);
     m->log_c_input = -0.5 * chi2_quantile(m->d, 1.0 - config->p0);
     m->leader_threshold = chi2_quantile(m->D, config->leader_level);
@@ -108,12 +108,12 @@ static int experts(const void *self)
 {
     const struct imle *m = self;
 
-    return m->M;
+    return m->state.M;
 }
 
 const struct learner_ops learner_imle_ops = {
     .number = 0,
-    .check = check,
+    .check = check_parameters,
     .hash = hash_variances,
     .memory = memory,
     .create = create,
