@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recursive_imle.h"
+#include "tools/bench/reference/recursive_imle.h"
 #include "tools/bench/reference/textbook_chi2.h"
 
 namespace oracle
