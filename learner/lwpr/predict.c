@@ -65,8 +65,8 @@ static double variance_of(const struct lwpr *m, int output, const struct blend *
     return fmax((disagreement + blend->wv / blend->W) / activation, least_variance);
 }
 
-static void answer(const struct lwpr *m, int output, const struct blend *blend,
-                   struct learner_solution *solution)
+static void fill_in_output(const struct lwpr *m, int output, const struct blend *blend,
+                           struct learner_solution *solution)
 {
     double norm = m->p.norm_out[output];
     double mean = blend->wy / blend->W;
@@ -105,6 +105,6 @@ int lwpr_predict(struct lwpr *m, const double *z, struct learner_solution *solut
     solution->principal = -1;
     solution->weight = 1.0;
     for (int o = 0; o < m->D; o++)
-        answer(m, o, &blend[o], solution);
+        fill_in_output(m, o, &blend[o], solution);
     return 1;
 }
