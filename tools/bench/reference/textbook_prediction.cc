@@ -1,6 +1,7 @@
 /* The textbook mixture: predictions, clusters, Jacobians. */
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tools/bench/reference/textbook_chi2.h"
 #include "tools/bench/reference/textbook_imle.h"
@@ -170,9 +171,8 @@ std::vector<Solution> TextbookImle::predict(const VectorXd &z) const
 
 Solution TextbookImle::predict_single(const VectorXd &z) const
 {
-    std::vector<int> everyone;
-    for (int j = 0; j < experts(); j++)
-        everyone.push_back(j);
+    std::vector<int> everyone(experts_.size());
+    std::iota(everyone.begin(), everyone.end(), 0);
     return fuse(answers(z), everyone);
 }
 
