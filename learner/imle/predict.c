@@ -5,8 +5,9 @@
 #include "common/base/elementary.h"
 #include "learner/imle/imle.h"
 
-/* An expert whose t is below exp(-this) of the largest is left out: all of them together move a
- * solution by less than M exp(-this) of what they differ from it, 2e-6 for 1000 experts. */
+/* An expert that lags this far behind the best, its t below exp(-this) of the largest, is left out:
+ * all of them together move a solution by less than M exp(-this) of what they differ from it, 2e-6
+ * for 1000 experts. */
 static const double negligible_lag = 20.0;
 
 /* p_out(z) in units of the largest t is cut here: beyond it a solution has no weight anyway. */
