@@ -181,8 +181,7 @@ static const struct option_row table[] = {
           "waiting samples learned per tick in lockstep (real time: as many as there is time for)"),
 
     {"model.directory", OPTION_TEXT, offsetof(struct config, model_directory), NULL, "", 0, 0,
-     "where the model is kept and saved; empty: neither",
-     "directory in which the model is kept and saved; empty = nothing is stored"},
+     "directory in which the model is kept and saved; empty = nothing is stored", NULL},
     FLAG("model.automatic", model_automatic, "true",
          "true = store what is learned at once and go on from it at the next start"),
     COUNT("model.snapshot", model_snapshot, "500", 1, 1000000,
