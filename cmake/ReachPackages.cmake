@@ -77,7 +77,7 @@ card."
   RECOMMENDS "reachd")
 reach_package(reach-tools SECTION science
   SUMMARY "command line, measurements and log readers for reachd"
-  DESCRIPTION "reachctl asks reachd for what it can do and shows how it goes, reach-eval and
+  DESCRIPTION "reachctl sends requests to reachd and shows what it does, reach-eval and
 reach-bench measure the learner, reach-spy shows the bus in a window,
 reach-export writes logs as CSV, and a Python package reads them as arrays."
   DEPENDS "iproute2, python3 (>= 3.11), python3-numpy"

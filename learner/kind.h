@@ -14,9 +14,11 @@ extern "C" {
 #define LEARNER_LARGEST_FEATURE 1e60
 
 struct learner_ops {
-    const char *name;
-    /* 0, or -1 and a line in err; rows that all kinds share have been checked. */
+    uint64_t number; /* of the kind in a saved state and its hash; never that of another */
+    /* 0, or -1 and a line in err; ranges of rows that are one number have been checked. */
     int (*check)(const struct learner_config *config, char *err, size_t err_size);
+    /* Continues learner_config_hash() with the rows that are this kind's own. */
+    uint64_t (*hash)(const struct learner_config *config, uint64_t hash);
     size_t (*memory)(const struct learner_config *config);
     /* The implementation's own state, or NULL when the arena is exhausted. */
     void *(*create)(const struct learner_config *config, struct arena *arena);
@@ -39,23 +41,10 @@ struct learner_ops {
 
 extern const struct learner_ops learner_imle_ops;
 extern const struct learner_ops learner_body_ops; /* IMLE until a body is found */
-extern const struct learner_ops learner_null_ops;
 extern const struct learner_ops learner_lwpr_ops;
 
-/* Defaults of config.lwpr, and its part of the hash below. */
+/* Defaults of config.lwpr. */
 struct learner_lwpr_config learner_lwpr_default(int n_inputs);
-uint64_t learner_lwpr_hash(uint64_t hash, const struct learner_config *config);
-
-/* A row and the range that its number must be in. */
-struct learner_range {
-    const char *name;
-    double value;
-    double minimum;
-    double maximum;
-};
-
-/* 0, or -1 and a line in err for the first that is out of range or NaN. */
-int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err, size_t err_size);
 
 /* The implementation that a configuration asks for; NULL for a kind that is none. */
 const struct learner_ops *learner_ops_of(const struct learner_config *config);
@@ -63,10 +52,6 @@ const struct learner_ops *learner_ops_of(const struct learner_config *config);
 /* A hash (FNV-1a) of all that gives a saved state its meaning: every row but the capacity and those
  * that only shape predictions. */
 uint64_t learner_config_hash(const struct learner_config *config);
-
-/* FNV-1a over bytes, continued from `hash`; begin with LEARNER_HASH_START. */
-#define LEARNER_HASH_START 14695981039346656037ULL
-uint64_t learner_hash(uint64_t hash, const void *bytes, size_t n);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "learner/base/hash.h"
+
 struct learner {
     const struct learner_ops *ops;
     void *self;
@@ -17,7 +19,7 @@ struct learner {
 struct envelope {
     char magic[8];
     uint64_t version;
-    uint64_t kind;
+    uint64_t kind; /* learner_ops.number */
     uint64_t n_inputs;
     uint64_t n_outputs;
     uint64_t parameters; /* learner_config_hash() */
@@ -34,33 +36,20 @@ struct envelope {
 static const char magic[8] = "RLEARNER";
 static const uint64_t version = 3;
 
-const struct learner_ops *learner_ops_of(const struct learner_config *config)
-{
-    switch (config->kind) {
-    case LEARNER_IMLE:
-        return config->features == LEARNER_BODY ? &learner_body_ops : &learner_imle_ops;
-    case LEARNER_NULL:
-        return &learner_null_ops;
-    case LEARNER_LWPR:
-        return &learner_lwpr_ops;
-    }
-    return NULL;
-}
-
-static size_t memory(const struct learner_config *config)
+static size_t memory_of(const struct learner_config *config)
 {
     return arena_footprint(sizeof(struct learner)) + learner_ops_of(config)->memory(config);
 }
 
 /* The configuration with no more experts than most_bytes has room for, but one at least. */
-static struct learner_config bounded(struct learner_config config)
+static struct learner_config bounded_by_memory(struct learner_config config)
 {
     int low = 1;
     int high = config.capacity;
 
     while (low < high) {
         config.capacity = high - (high - low) / 2;
-        if ((double)memory(&config) <= config.most_bytes)
+        if ((double)memory_of(&config) <= config.most_bytes)
             low = config.capacity;
         else
             high = config.capacity - 1;
@@ -75,8 +64,8 @@ size_t learner_memory(const struct learner_config *config)
 
     if (learner_config_check(config, ignored, sizeof ignored) != 0)
         return 0;
-    struct learner_config within = bounded(*config);
-    return memory(&within);
+    struct learner_config within = bounded_by_memory(*config);
+    return memory_of(&within);
 }
 
 struct learner *learner_create(const struct learner_config *config, struct arena *arena, char *err,
@@ -87,7 +76,7 @@ struct learner *learner_create(const struct learner_config *config, struct arena
     struct learner *learner = arena_alloc(arena, sizeof *learner);
     if (learner) {
         learner->ops = learner_ops_of(config);
-        learner->config = bounded(*config);
+        learner->config = bounded_by_memory(*config);
         learner->self = learner->ops->create(&learner->config, arena);
     }
     if (!learner || !learner->self) {
@@ -197,7 +186,7 @@ size_t learner_save(const struct learner *learner, void *buffer, size_t size)
     unsigned char *state = (unsigned char *)buffer + sizeof(struct envelope);
     struct envelope envelope = {
         .version = version,
-        .kind = (uint64_t)learner->config.kind,
+        .kind = learner->ops->number,
         .n_inputs = (uint64_t)learner->config.n_inputs,
         .n_outputs = (uint64_t)learner->config.n_outputs,
         .parameters = learner_config_hash(&learner->config),
@@ -233,7 +222,7 @@ static const char *envelope_fault(const struct learner *learner, const struct en
         return "cut short or with bytes too many";
     if (envelope->checksum != checksum(envelope, state, size - sizeof *envelope))
         return "damaged: the checksum does not match";
-    if (envelope->kind != (uint64_t)config->kind)
+    if (envelope->kind != learner->ops->number)
         return "saved by another kind of learner";
     if (envelope->n_inputs != (uint64_t)config->n_inputs ||
         envelope->n_outputs != (uint64_t)config->n_outputs)

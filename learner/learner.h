@@ -28,7 +28,6 @@ extern "C" {
 
 enum learner_kind {
     LEARNER_IMLE, /* infinite mixture of experts linear in features */
-    LEARNER_NULL, /* accepts every sample, predicts nothing: for tests */
     LEARNER_LWPR, /* locally weighted projection regression: one value everywhere */
 };
 

@@ -1,8 +1,8 @@
 /* The learner's parameters: defaults, ranges, and the hash that ties a saved state to them. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
+#include "learner/base/hash.h"
+#include "learner/base/ranges.h"
 #include "learner/kind.h"
 #include "learner/parameter_rows.h"
 
@@ -42,23 +42,6 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
         config.scale[i] = 1.0;
     return config;
 }
-
-int learner_check_ranges(const struct learner_range *ranges, size_t n, char *err, size_t err_size)
-{
-    for (size_t i = 0; i < n; i++) {
-        const struct learner_range *r = &ranges[i];
-        /* Written so that NaN is refused. */
-        if (r->value >= r->minimum && r->value <= r->maximum)
-            continue;
-        snprintf(err, err_size, "%s is %g: must be between %g and %g", r->name, r->value,
-                 r->minimum, r->maximum);
-        return -1;
-    }
-    return 0;
-}
-
-#define CHECK_RANGES(ranges, err, err_size)                                                        \
-    learner_check_ranges(ranges, sizeof(ranges) / sizeof((ranges)[0]), err, err_size)
 
 /* Every row that is one number: the range that people are told of holds for programs, too. */
 #define ROW(name, type, field, minimum, maximum, choices, help)                                    \
@@ -107,7 +90,7 @@ static int check_rows(const struct learner_config *config, char *err, size_t err
     return 0;
 }
 
-/* What depends on the kind and the dimensions. */
+/* What depends on the dimensions, and those. */
 static int check_dimensions(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_range ranges[] = {
@@ -117,7 +100,7 @@ static int check_dimensions(const struct learner_config *config, char *err, size
         {"prior_sigma", config->prior_sigma, config->n_inputs, INFINITY},
     };
 
-    return CHECK_RANGES(ranges, err, err_size);
+    return LEARNER_CHECK_RANGES(ranges, err, err_size);
 }
 
 static int check_scales(const struct learner_config *config, char *err, size_t err_size)
@@ -127,24 +110,7 @@ static int check_scales(const struct learner_config *config, char *err, size_t e
             {"reference", config->reference[i], -LEARNER_LARGEST_NUMBER, LEARNER_LARGEST_NUMBER},
             {"scale", config->scale[i], 1e-9, LEARNER_LARGEST_NUMBER},
         };
-        if (CHECK_RANGES(ranges, err, err_size) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_variances(const struct learner_config *config, char *err, size_t err_size)
-{
-    if (config->kind == LEARNER_LWPR)
-        return 0;
-    for (int i = 0; i < config->n_inputs; i++) {
-        const struct learner_range range = {"sigma0", config->sigma0[i], 1e-12, 1e12};
-        if (learner_check_ranges(&range, 1, err, err_size) != 0)
-            return -1;
-    }
-    for (int i = 0; i < config->n_outputs; i++) {
-        const struct learner_range range = {"psi0", config->psi0[i], 1e-12, 1e12};
-        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+        if (LEARNER_CHECK_RANGES(ranges, err, err_size) != 0)
             return -1;
     }
     return 0;
@@ -153,24 +119,16 @@ static int check_variances(const struct learner_config *config, char *err, size_
 int learner_config_check(const struct learner_config *config, char *err, size_t err_size)
 {
     if (check_dimensions(config, err, err_size) != 0 || check_rows(config, err, err_size) != 0 ||
-        check_scales(config, err, err_size) != 0 || check_variances(config, err, err_size) != 0)
+        check_scales(config, err, err_size) != 0)
         return -1;
     return learner_ops_of(config)->check(config, err, err_size);
 }
 
-uint64_t learner_hash(uint64_t hash, const void *bytes, size_t n)
-{
-    const unsigned char *byte = bytes;
-
-    for (size_t i = 0; i < n; i++)
-        hash = (hash ^ byte[i]) * 1099511628211ULL;
-    return hash;
-}
-
 uint64_t learner_config_hash(const struct learner_config *config)
 {
+    const struct learner_ops *ops = learner_ops_of(config);
     const double numbers[] = {
-        (int)config->kind,
+        (double)ops->number,
         config->n_inputs,
         config->n_outputs,
         (int)config->features,
@@ -189,8 +147,5 @@ uint64_t learner_config_hash(const struct learner_config *config)
 
     hash = learner_hash(hash, config->reference, inputs);
     hash = learner_hash(hash, config->scale, inputs);
-    if (config->kind == LEARNER_LWPR)
-        return learner_lwpr_hash(hash, config);
-    hash = learner_hash(hash, config->sigma0, inputs);
-    return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
+    return ops->hash(config, hash);
 }

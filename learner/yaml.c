@@ -39,7 +39,7 @@ struct learner_options learner_options_default(enum learner_kind kind, int n_inp
 }
 
 /* Copies what people wrote into the configuration's arrays. */
-static int spread(struct learner_options *options, char *error, size_t error_size)
+static int spread_lists(struct learner_options *options, char *error, size_t error_size)
 {
     for (const struct option_row *row = rows; row->name; row++) {
         const struct option_list *list = (const void *)((const char *)options + row->offset);
@@ -64,7 +64,7 @@ static int spread(struct learner_options *options, char *error, size_t error_siz
 
 int learner_options_finish(struct learner_options *options, char *error, size_t error_size)
 {
-    return spread(options, error, error_size)
+    return spread_lists(options, error, error_size)
                ? -1
                : learner_config_check(&options->config, error, error_size);
 }

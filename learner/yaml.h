@@ -33,14 +33,17 @@ struct learner_options {
 #define LEARNER_OPTION_ROWS                                                                        \
     LEARNER_ROWS(LEARNER_OPTION_SHARED),                                                           \
         LEARNER_OPTION_SPREAD("reference", reference,                                              \
-                              "c, middle of the inputs' range, where polynomials are centred"),    \
-        LEARNER_OPTION_SPREAD("scale", scale, "s, unit of the inputs in polynomials"),             \
-        LEARNER_OPTION_SPREAD("psi0", psi0,                                                        \
-                              "Psi_0, variance of each output about an expert (unit squared)"),    \
-        LEARNER_OPTION_SPREAD("sigma0", sigma0,                                                    \
-                              "sigma_0, variance of an expert's inputs (unit squared)"),           \
+                              "c: middle of each input's range, where polynomials are centred"),   \
+        LEARNER_OPTION_SPREAD("scale", scale,                                                      \
+                              "s: unit of each input in the polynomials and in LWPR's metric"),    \
+        LEARNER_OPTION_SPREAD(                                                                     \
+            "psi0", psi0,                                                                          \
+            "Psi_0: variance of each output about an expert's prediction (unit squared)"),         \
+        LEARNER_OPTION_SPREAD(                                                                     \
+            "sigma0", sigma0,                                                                      \
+            "sigma_0: variance of each input that a new expert covers (unit squared)"),            \
         LEARNER_OPTION_SPREAD("lwpr.norm_out", norm_out,                                           \
-                              "LWPR: unit of each output in the metric's cost")
+                              "LWPR: unit of each output in the cost that adapts the metric")
 
 /* What holds where nobody says otherwise: learner_config_default(). Psi_0 and sigma_0 have no
  * default (an empty list), except for a learner that does not use them. */

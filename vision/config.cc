@@ -14,15 +14,18 @@
 
 /* The rows of one eye. */
 #define EYE_ROWS(eye)                                                                              \
-    NUMBER(#eye ".focal", eye##_focal, "px", "1200", 50, 20000, "focal length"),                   \
+    NUMBER(#eye ".focal", eye##_focal, "px", "1200", 50, 20000,                                    \
+           "focal length of the " #eye " camera"),                                                 \
         NUMBER(#eye ".centre_u", eye##_centre_u, "px", "0", -1000, 1000,                           \
-               "optical axis to the right of the image centre; the marker counts from it"),        \
+               "distance of the " #eye " camera's optical axis to the right of the image centre"), \
         NUMBER(#eye ".centre_v", eye##_centre_v, "px", "0", -1000, 1000,                           \
-               "optical axis below the image centre; the marker counts from it"),                  \
+               "distance of the " #eye " camera's optical axis below the image centre"),           \
         NUMBER(#eye ".k1", eye##_k1, nullptr, "0", -2, 2,                                          \
-               "radial distortion, factor of the squared slope of a line of sight"),               \
+               "radial distortion of the " #eye                                                    \
+               " camera: factor of the squared slope of a line of sight"),                         \
         NUMBER(#eye ".k2", eye##_k2, nullptr, "0", -2, 2,                                          \
-               "radial distortion, factor of the fourth power of that slope")
+               "radial distortion of the " #eye                                                    \
+               " camera: factor of the fourth power of the slope of a line of sight")
 
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
@@ -30,46 +33,58 @@ static const struct option_row table[] = {
     EYE_ROWS(left),
     EYE_ROWS(right),
     NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,
-           "angle by which the optical axes turn towards each other"),
-    NUMBER("eyes.baseline", baseline, "m", "0.09", 0.001, 2, "distance between the eyes"),
-    NUMBER("ball.hue", hue, "deg", "120", 0, 360, "middle of the ball's hue: 0 red, 120 green"),
-    NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180, "hue may be off by this"),
-    NUMBER("ball.saturation_min", saturation_min, nullptr, "0.4", 0, 1, "paler is not the ball"),
-    NUMBER("ball.saturation_max", saturation_max, nullptr, "1", 0, 1, "purer is not the ball"),
-    NUMBER("ball.value_min", value_min, nullptr, "0.12", 0, 1, "darker is not the ball"),
+           "angle by which the optical axes of the two eyes turn towards each other"),
+    NUMBER("eyes.baseline", baseline, "m", "0.09", 0.001, 2, "distance between the two eyes"),
+    NUMBER("ball.hue", hue, "deg", "120", 0, 360,
+           "middle of the ball's hue: 0 = red, 120 = green, 240 = blue"),
+    NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180,
+           "greatest difference between a pixel's hue and ball.hue"),
+    NUMBER("ball.saturation_min", saturation_min, nullptr, "0.4", 0, 1,
+           "least saturation of the ball's pixels; paler ones do not belong to it"),
+    NUMBER("ball.saturation_max", saturation_max, nullptr, "1", 0, 1,
+           "greatest saturation of the ball's pixels; purer ones do not belong to it"),
+    NUMBER("ball.value_min", value_min, nullptr, "0.12", 0, 1,
+           "least brightness (HSV value) of the ball's pixels; darker ones do not belong to it"),
     NUMBER("ball.radius", ball_radius, "m", "0", 0, 1,
-           "the ball's true radius, 0 = not known; a thing of other size is then refused"),
-    NUMBER("ball.radius_min", radius_min, "px", "8", 4, 1000, "smallest apparent radius"),
-    NUMBER("ball.radius_max", radius_max, "px", "110", 8, 2000, "largest apparent radius"),
+           "the ball's true radius; a thing of another size is refused; 0 = not known, not "
+           "checked"),
+    NUMBER("ball.radius_min", radius_min, "px", "8", 4, 1000,
+           "smallest apparent radius of the ball in a picture"),
+    NUMBER("ball.radius_max", radius_max, "px", "110", 8, 2000,
+           "largest apparent radius of the ball in a picture"),
     NUMBER("ball.coverage_min", coverage_min, nullptr, "0.5", 0.15, 1,
-           "share of the outline that must be seen"),
+           "least share of the ball's outline that must be seen"),
     NUMBER("ball.fill_min", fill_min, nullptr, "0.5", 0.05, 1,
-           "share of the disc that must have the ball's colour"),
+           "least share of the ball's disc that must have its colour"),
     NUMBER("ball.roughness", roughness, "px", "0.8", 0.05, 10,
-           "largest rms distance of the seen edge from a ball's outline"),
+           "greatest rms distance of the seen edge from the outline of a ball"),
     NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
-           "the eyes may disagree on the ball's height by this, vergence taken out"),
+           "greatest difference between the ball's heights in the two pictures, corrected for "
+           "vergence"),
     NUMBER("check.size", size_tolerance, nullptr, "0.15", 0.01, 1,
-           "the eyes may disagree on the ball's size by this share"),
-    NUMBER("check.disparity_min", disparity_min, "px", "-300", -4000, 4000, "smallest disparity"),
-    NUMBER("check.disparity_max", disparity_max, "px", "300", -4000, 4000, "largest disparity"),
+           "greatest relative difference between the ball's sizes in the two pictures"),
+    NUMBER("check.disparity_min", disparity_min, "px", "-300", -4000, 4000,
+           "smallest disparity that is accepted"),
+    NUMBER("check.disparity_max", disparity_max, "px", "300", -4000, 4000,
+           "largest disparity that is accepted"),
     NUMBER("track.margin", window_margin, "px", "24", 4, 1000,
-           "the window reaches this far around the expected ball"),
+           "distance by which the search window reaches beyond the expected ball"),
     NUMBER("track.growth", window_growth, "px/s", "300", 0, 10000,
-           "the window's reach grows while the ball is not seen"),
+           "speed at which the search window grows while the ball is not seen"),
     NUMBER("track.memory", memory, "s", "0.5", 0, 2,
-           "after this time unseen the ball is looked for everywhere at once"),
+           "time without a sighting after which the whole pictures are searched at once"),
     WHOLE("track.window_step", window_step, "px", "3", 1, 8,
-          "every n-th pixel of a window is looked at before the close look"),
+          "in a search window every n-th pixel is looked at first, before the close look"),
     WHOLE("track.whole_step", whole_step, "px", "4", 1, 8,
-          "every n-th pixel of a whole picture is looked at before the close look"),
+          "in a whole picture every n-th pixel is looked at first, before the close look"),
     WHOLE("track.recheck", recheck, "pairs", "30", 0, 100000,
-          "after this many pairs in windows the whole pictures are looked at once"),
+          "number of pairs seen in search windows after which the whole pictures are searched "
+          "once"),
     NUMBER("bus.drop_after", drop_after, "s", "0.05", 0, 10,
-           "live pairs that waited longer are passed over; 0 = never. Only pairs stamped with the "
-           "present time are live: simulated time is never passed over"),
+           "age at which a waiting live pair is passed over; 0 = never; a pair is live when "
+           "stamped with the present time, not with simulated time"),
     NUMBER("video.rate", video_rate, "1/s", "0", 0, 1000,
-           "pairs a second from video files; 0 = as fast as they are seen"),
+           "pairs per second from video files; 0 = as fast as they are processed"),
     {nullptr, OPTION_BOOL, 0, nullptr, nullptr, 0, 0, nullptr, nullptr},
 };
 

@@ -148,7 +148,7 @@ static int serve(source *pairs, lcm_t *lcm, bool own_pace, const statistics &cou
     }
     notify_send("STOPPING=1");
     if (state == SOURCE_FAILED && !stop_asked) {
-        log_error("pairs of pictures cannot be had any more");
+        log_error("the source of pictures failed: no more pairs can be read");
         return 1;
     }
     return 0;

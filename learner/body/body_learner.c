@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "learner/body/vec3.h"
+#include "learner/base/hash.h"
 
 struct learner_config body_meanwhile_config(const struct learner_config *config)
 {
@@ -24,6 +24,13 @@ static int check(const struct learner_config *config, char *err, size_t err_size
         return -1;
     }
     return learner_imle_ops.check(&meanwhile, err, err_size);
+}
+
+static uint64_t hash_meanwhile(const struct learner_config *config, uint64_t hash)
+{
+    double numbers[] = {(double)config->body.space, config->body.degrees};
+
+    return learner_hash(learner_imle_ops.hash(config, hash), numbers, sizeof numbers);
 }
 
 static size_t memory(const struct learner_config *config)
@@ -175,8 +182,9 @@ static struct learner_samples kept_samples(const void *self, int context)
 }
 
 const struct learner_ops learner_body_ops = {
-    .name = "body",
+    .number = 3,
     .check = check,
+    .hash = hash_meanwhile,
     .memory = memory,
     .create = create,
     .update = update,

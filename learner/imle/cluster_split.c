@@ -31,7 +31,7 @@ struct imle_split_scratch {
     int padded; /* answers, up to a multiple of eight */
     int heavy;  /* those that move centers come first; also up to a multiple of eight */
     int pairs;  /* looked at in EM steps so far */
-    int index[IMLE_MOST_ANSWERS]; /* of the answer in m->answers */
+    int index[IMLE_MOST_ANSWERS]; /* of the answer in m->query.answers */
     double center[LEARNER_MAX_SOLUTIONS][LEARNER_MAX_OUTPUTS];
     double x[LEARNER_MAX_OUTPUTS][IMLE_MOST_ANSWERS];
     double weight[LEARNER_MAX_OUTPUTS][IMLE_MOST_ANSWERS]; /* R_j^-1 */
@@ -59,34 +59,34 @@ static int whole_lanes(int n)
 /* The heavy answers first, both in their order. */
 static void order_by_weight(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
-    double least = m->largest_log_t - light;
+    struct imle_split_scratch *s = m->query.split;
+    double least = m->query.largest_log_t - light;
     int n = 0;
 
-    for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[a].log_t >= least)
+    for (int a = 0; a < m->query.n_answers; a++)
+        if (m->query.answers[a].log_t >= least)
             s->index[n++] = a;
     s->heavy = whole_lanes(n);
-    for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[a].log_t < least)
+    for (int a = 0; a < m->query.n_answers; a++)
+        if (m->query.answers[a].log_t < least)
             s->index[n++] = a;
     s->padded = whole_lanes(n);
 }
 
 static void lay_out_answers(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
 
     order_by_weight(m);
-    for (int a = 0; a < m->n_answers; a++) {
-        const struct imle_answer *answer = &m->answers[s->index[a]];
-        const double *psi = m->psi + (size_t)answer->expert * (size_t)m->D;
+    for (int a = 0; a < m->query.n_answers; a++) {
+        const struct imle_answer *answer = &m->query.answers[s->index[a]];
+        const double *psi = m->state.psi + (size_t)answer->expert * (size_t)m->D;
         for (int i = 0; i < m->D; i++) {
             s->x[i][a] = answer->xhat[i];
             s->weight[i][a] = 1.0 / (answer->spread * psi[i]);
         }
     }
-    for (int a = m->n_answers; a < s->padded; a++)
+    for (int a = m->query.n_answers; a < s->padded; a++)
         for (int i = 0; i < m->D; i++)
             s->x[i][a] = s->weight[i][a] = 0.0;
 }
@@ -94,7 +94,7 @@ static void lay_out_answers(struct imle *m)
 /* (xhat_j - center)' R_j^-1 (xhat_j - center) of the first n answers; s->nearest falls to it. */
 static void deviations(const struct imle *m, int n, const double *center, double *deviation)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
 
     m->kernels->deviations(n, m->D, IMLE_MOST_ANSWERS, s->x[0], s->weight[0], center, deviation,
                            s->nearest);
@@ -103,7 +103,7 @@ static void deviations(const struct imle *m, int n, const double *center, double
 /* Deviations of the first n answers from every center, and the nearest of each answer. */
 static void all_deviations(struct imle *m, int n)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
 
     for (int a = 0; a < n; a++)
         s->nearest[a] = INFINITY;
@@ -115,7 +115,7 @@ static void all_deviations(struct imle *m, int n)
  * k. Returns whether the center moved. */
 static bool move_center(struct imle *m, int n, int k)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
     bool moved = false;
 
     for (int i = 0; i < m->D; i++) {
@@ -135,7 +135,7 @@ static bool move_center(struct imle *m, int n, int k)
  * deviations come from the centers before any has moved. Returns whether any has. */
 static bool em_iteration(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
     bool moved = false;
 
     all_deviations(m, s->heavy);
@@ -152,14 +152,14 @@ static bool em_iteration(struct imle *m)
 /* What the test of each cluster needs. */
 static void sum_members(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
 
     memset(s->T, 0, sizeof s->T);
     memset(s->t, 0, sizeof s->t);
     memset(s->tt, 0, sizeof s->tt);
     memset(s->members, 0, sizeof s->members);
-    for (int a = 0; a < m->n_answers; a++) {
-        const struct imle_answer *answer = &m->answers[s->index[a]];
+    for (int a = 0; a < m->query.n_answers; a++) {
+        const struct imle_answer *answer = &m->query.answers[s->index[a]];
         s->T[answer->cluster] += s->nearest[a];
         s->t[answer->cluster] += answer->t;
         s->tt[answer->cluster] += answer->t * answer->t;
@@ -168,19 +168,19 @@ static void sum_members(struct imle *m)
 }
 
 /* Each answer goes to its most probable cluster; clusters that nobody chose are dropped. */
-static void assign(struct imle *m)
+static void assign_answers(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
     int renamed[LEARNER_MAX_SOLUTIONS] = {0};
     bool chosen[LEARNER_MAX_SOLUTIONS] = {false};
     int n = 0;
 
     all_deviations(m, s->padded);
-    for (int a = 0; a < m->n_answers; a++) {
+    for (int a = 0; a < m->query.n_answers; a++) {
         int k = 0;
         while (s->p[k][a] > s->nearest[a])
             k++;
-        m->answers[s->index[a]].cluster = k;
+        m->query.answers[s->index[a]].cluster = k;
         chosen[k] = true;
     }
     for (int k = 0; k < s->n; k++) {
@@ -188,8 +188,8 @@ static void assign(struct imle *m)
         if (chosen[k])
             memmove(s->center[n++], s->center[k], sizeof s->center[k]);
     }
-    for (int a = 0; a < m->n_answers; a++)
-        m->answers[a].cluster = renamed[m->answers[a].cluster];
+    for (int a = 0; a < m->query.n_answers; a++)
+        m->query.answers[a].cluster = renamed[m->query.answers[a].cluster];
     s->n = n;
     sum_members(m);
 }
@@ -197,7 +197,7 @@ static void assign(struct imle *m)
 /* How sure it is that cluster k is more than one; 0 when the significance is out of reach. */
 static double split_level(const struct imle *m, int k)
 {
-    const struct imle_split_scratch *s = m->split;
+    const struct imle_split_scratch *s = m->query.split;
     double dof = m->config.clustering == LEARNER_CLUSTER_SPLIT
                      ? (s->members[k] - 1) * m->D
                      : (s->t[k] * s->t[k] / s->tt[k] - 1.0) * m->D + 1.0;
@@ -210,35 +210,35 @@ static double split_level(const struct imle *m, int k)
 /* The member of cluster k that is farthest from x. */
 static int farthest_member(struct imle *m, int k, const double *x)
 {
-    double *deviation = m->split->sum;
+    double *deviation = m->query.split->sum;
     double largest = -1.0;
     int farthest = 0;
 
-    deviations(m, m->split->padded, x, deviation);
-    for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[m->split->index[a]].cluster == k && deviation[a] > largest) {
+    deviations(m, m->query.split->padded, x, deviation);
+    for (int a = 0; a < m->query.n_answers; a++)
+        if (m->query.answers[m->query.split->index[a]].cluster == k && deviation[a] > largest) {
             largest = deviation[a];
             farthest = a;
         }
-    return m->split->index[farthest];
+    return m->query.split->index[farthest];
 }
 
-static void split(struct imle *m, int k)
+static void split_cluster(struct imle *m, int k)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
     int first = farthest_member(m, k, s->center[k]);
-    int second = farthest_member(m, k, m->answers[first].xhat);
+    int second = farthest_member(m, k, m->query.answers[first].xhat);
     bool moved = true;
 
-    memcpy(s->center[k], m->answers[first].xhat, sizeof s->center[k]);
-    memcpy(s->center[s->n++], m->answers[second].xhat, sizeof s->center[k]);
+    memcpy(s->center[k], m->query.answers[first].xhat, sizeof s->center[k]);
+    memcpy(s->center[s->n++], m->query.answers[second].xhat, sizeof s->center[k]);
     for (int i = 0; i < m->config.em_pred_iterations && moved; i++) {
         if (i >= LEAST_STEPS && s->pairs > MOST_PAIRS)
             break;
         s->pairs += s->heavy * s->n;
         moved = em_iteration(m);
     }
-    assign(m);
+    assign_answers(m);
 }
 
 /* The cluster with the largest level above the significance, or -1. */
@@ -247,7 +247,7 @@ static int cluster_to_split(const struct imle *m)
     double largest = m->config.significance;
     int worst = -1;
 
-    for (int k = 0; k < m->split->n; k++) {
+    for (int k = 0; k < m->query.split->n; k++) {
         double level = split_level(m, k);
         if (level > largest) {
             largest = level;
@@ -259,7 +259,7 @@ static int cluster_to_split(const struct imle *m)
 
 int imle_cluster_by_splitting(struct imle *m)
 {
-    struct imle_split_scratch *s = m->split;
+    struct imle_split_scratch *s = m->query.split;
 
     s->n = 1;
     s->pairs = 0;
@@ -274,7 +274,7 @@ int imle_cluster_by_splitting(struct imle *m)
         int before = s->n;
         int worst = cluster_to_split(m);
         if (worst >= 0)
-            split(m, worst);
+            split_cluster(m, worst);
         if (s->n <= before)
             break;
     }

@@ -29,47 +29,48 @@ static double *diagonal(double *G, int i)
 /* Psi = (w_Psi Psi_bar + SSR) / (w_Psi + S_h + 2), or Psi_bar for a prior of infinite strength. */
 static void refresh_psi(struct imle *m, int j)
 {
-    const struct imle_strengths *s = &m->strengths[j];
-    double *psi = at(m->psi, j, (size_t)m->D);
-    const double *ssr = at(m->ssr, j, (size_t)m->D);
+    const struct imle_strengths *s = &m->state.strengths[j];
+    double *psi = at(m->state.psi, j, (size_t)m->D);
+    const double *ssr = at(m->state.ssr, j, (size_t)m->D);
 
     for (int i = 0; i < m->D; i++)
         psi[i] = isinf(s->prior_psi)
-                     ? m->psi_bar[i]
-                     : (s->prior_psi * m->psi_bar[i] + ssr[i]) / (s->prior_psi + s->S + 2.0);
+                     ? m->state.psi_bar[i]
+                     : (s->prior_psi * m->state.psi_bar[i] + ssr[i]) / (s->prior_psi + s->S + 2.0);
 }
 
 static void refresh_densities(struct imle *m, int j)
 {
-    const struct imle_strengths *s = &m->strengths[j];
+    const struct imle_strengths *s = &m->state.strengths[j];
     double extra = m->config.prior_nu > 0.0 ? 2.0 : 1.0;
     double weight = s->prior_nu + s->S;
     double dof = s->prior_sigma + s->S - m->d + 1.0;
     double per_a = weight / ((weight + 1.0) * (s->prior_sigma + s->S + m->d + extra));
-    const double *psi = at(m->psi, j, (size_t)m->D);
+    const double *psi = at(m->state.psi, j, (size_t)m->D);
     double product = 1.0;
 
     for (int i = 0; i < m->D; i++)
         product *= psi[i];
-    m->gate.per_a[j] = per_a;
-    m->gate.exponent[j] = 0.5 * (dof + m->d);
-    m->gate.log_norm[j] = m->gate.log_det[j] + elementary_log_gamma_ratio(0.5 * dof, 0.5 * m->d) +
-                          0.5 * m->d * elementary_log(2.0 * per_a);
-    m->gate.log_S[j] = elementary_log(s->S);
-    m->gate.half_log_psi[j] = 0.5 * elementary_log(product);
-    m->gate.log_peak[j] = m->gate.log_det[j] - m->gate.half_log_psi[j];
-    m->stale[j / IMLE_SUM] = true;
+    m->derived.gate.per_a[j] = per_a;
+    m->derived.gate.exponent[j] = 0.5 * (dof + m->d);
+    m->derived.gate.log_norm[j] = m->derived.gate.log_det[j] +
+                                  elementary_log_gamma_ratio(0.5 * dof, 0.5 * m->d) +
+                                  0.5 * m->d * elementary_log(2.0 * per_a);
+    m->derived.gate.log_S[j] = elementary_log(s->S);
+    m->derived.gate.half_log_psi[j] = 0.5 * elementary_log(product);
+    m->derived.gate.log_peak[j] = m->derived.gate.log_det[j] - m->derived.gate.half_log_psi[j];
+    m->derived.stale[j / IMLE_SUM] = true;
 }
 
 /* The root of Sigma^-1 is `scale` times the rows of G: its determinant, the diagonal of Sigma^-1,
  * and its place in the scan. */
 static void refresh_root(struct imle *m, int j, double scale, const double *G)
 {
-    double *precision = at(m->precision, j, (size_t)m->d);
+    double *precision = at(m->derived.precision, j, (size_t)m->d);
     const double *row = G;
 
     imle_lanes_write(m, j, scale, G);
-    m->gate.log_det[j] = whitener_log_det(m->d, G) + m->d * elementary_log(scale);
+    m->derived.gate.log_det[j] = whitener_log_det(m->d, G) + m->d * elementary_log(scale);
     memset(precision, 0, (size_t)m->d * sizeof *precision);
     for (int r = 0; r < m->d; row += ++r)
         for (int c = 0; c <= r; c++)
@@ -79,11 +80,11 @@ static void refresh_root(struct imle *m, int j, double scale, const double *G)
 /* Sigma is its numerator / (w_Sigma + S_h + d + 1 (+ 1 if w_nu > 0)). */
 void imle_expert_refresh(struct imle *m, int j)
 {
-    const struct imle_strengths *s = &m->strengths[j];
+    const struct imle_strengths *s = &m->state.strengths[j];
     double extra = m->config.prior_nu > 0.0 ? 2.0 : 1.0;
 
     refresh_root(m, j, sqrt(s->prior_sigma + s->S + m->d + extra),
-                 at(m->spread, j, whitener_row(m->d)));
+                 at(m->state.spread, j, whitener_row(m->d)));
     refresh_densities(m, j);
     imle_regression_write(m, j);
 }
@@ -92,15 +93,15 @@ void imle_expert_refresh(struct imle *m, int j)
  * by one from those of the M-step. */
 static void first_densities(struct imle *m, int j)
 {
-    double *psi = at(m->psi, j, (size_t)m->D);
+    double *psi = at(m->state.psi, j, (size_t)m->D);
     double w = m->config.prior_sigma;
     double G[LEARNER_MAX_INPUTS * (LEARNER_MAX_INPUTS + 1) / 2];
 
     whitener_set_diagonal(m->d, G, 1.0);
     for (int i = 0; i < m->d; i++)
-        *diagonal(G, i) = 1.0 / sqrt(w * m->sigma_bar[i]);
+        *diagonal(G, i) = 1.0 / sqrt(w * m->state.sigma_bar[i]);
     for (int i = 0; i < m->D; i++)
-        psi[i] = m->psi_bar[i] / (1.0 + 2.0 / m->config.prior_psi);
+        psi[i] = m->state.psi_bar[i] / (1.0 + 2.0 / m->config.prior_psi);
     refresh_root(m, j, sqrt(w + m->d + 2.0), G);
     refresh_densities(m, j);
     imle_regression_write(m, j);
@@ -112,38 +113,39 @@ static void first_regression(struct imle *m, int j, const double *x, int parent)
     size_t p = (size_t)m->p;
     size_t D = (size_t)m->D;
     double ridge = m->config.ridge + birth_scatter;
-    double *W = at(m->W, j, p * D);
+    double *W = at(m->state.W, j, p * D);
 
-    memcpy(at(m->phibar, j, p), m->phi, p * sizeof(double));
-    memcpy(at(m->xbar, j, D), x, D * sizeof(double));
+    memcpy(at(m->state.phibar, j, p), m->query.phi, p * sizeof(double));
+    memcpy(at(m->state.xbar, j, D), x, D * sizeof(double));
     if (parent >= 0)
-        memcpy(W, at(m->W, parent, p * D), p * D * sizeof(double));
+        memcpy(W, at(m->state.W, parent, p * D), p * D * sizeof(double));
     else
         memset(W, 0, p * D * sizeof(double));
-    whitener_set_diagonal(m->p, at(m->whitener, j, whitener_row(m->p)), ridge);
+    whitener_set_diagonal(m->p, at(m->state.whitener, j, whitener_row(m->p)), ridge);
     for (size_t k = 0; k < p; k++)
-        at(m->ridge, j, p)[k] = ridge;
-    memset(at(m->ssr, j, D), 0, D * sizeof(double));
+        at(m->state.ridge, j, p)[k] = ridge;
+    memset(at(m->state.ssr, j, D), 0, D * sizeof(double));
 }
 
 void imle_expert_birth(struct imle *m, const double *z, const double *x, int parent)
 {
-    int j = m->M++;
+    int j = m->state.M++;
     size_t d = (size_t)m->d;
-    double *spread = at(m->spread, j, whitener_row(m->d));
+    double *spread = at(m->state.spread, j, whitener_row(m->d));
 
-    m->strengths[j] = (struct imle_strengths){
+    m->state.strengths[j] = (struct imle_strengths){
         .H = birth_weight,
         .prior_sigma = m->config.prior_sigma,
         .prior_nu = m->config.prior_nu,
         .prior_psi = m->config.prior_psi,
     };
-    memcpy(at(m->nu, j, d), z, d * sizeof(double));
-    memcpy(at(m->nu0, j, d), z, d * sizeof(double));
-    memcpy(at(m->sigma_birth, j, d), m->sigma_bar, d * sizeof(double));
+    memcpy(at(m->state.nu, j, d), z, d * sizeof(double));
+    memcpy(at(m->state.nu0, j, d), z, d * sizeof(double));
+    memcpy(at(m->state.sigma_birth, j, d), m->state.sigma_bar, d * sizeof(double));
     whitener_set_diagonal(m->d, spread, 1.0);
     for (int i = 0; i < m->d; i++)
-        *diagonal(spread, i) = 1.0 / sqrt(m->config.prior_sigma * m->sigma_bar[i] + birth_scatter);
+        *diagonal(spread, i) =
+            1.0 / sqrt(m->config.prior_sigma * m->state.sigma_bar[i] + birth_scatter);
     first_regression(m, j, x, parent);
     first_densities(m, j);
 }
@@ -162,8 +164,8 @@ static double decay(double H, double h, double alpha)
 static void add_to_gate(struct imle *m, int j, double delta, double weight, double h,
                         const double *z)
 {
-    double *nu = at(m->nu, j, (size_t)m->d);
-    double *G = at(m->spread, j, whitener_row(m->d));
+    double *nu = at(m->state.nu, j, (size_t)m->d);
+    double *G = at(m->state.spread, j, whitener_row(m->d));
     const double *row = G;
     double v[LEARNER_MAX_INPUTS];
     double y[LEARNER_MAX_INPUTS];
@@ -177,36 +179,36 @@ static void add_to_gate(struct imle *m, int j, double delta, double weight, doub
         for (int c = 0; c <= r; c++)
             y[r] += row[c] * v[c];
     }
-    whitener_add(m->kernels, m->d, 0, G, delta, weight * h / (weight + h), y, &m->add);
+    whitener_add(m->kernels, m->d, 0, G, delta, weight * h / (weight + h), y, &m->query.add);
 }
 
 /* What G whitens gets `more` at coordinate i of its diagonal. */
 static void add_to_coordinate(struct imle *m, int n, double *G, int i, double more)
 {
     for (int r = 0; r < n; r++)
-        m->white[r] = r < i ? 0.0 : G[whitener_row(r) + (size_t)i];
-    m->whitened = -1;
-    whitener_add(m->kernels, n, i, G, 1.0, more, m->white, &m->add);
+        m->query.white[r] = r < i ? 0.0 : G[whitener_row(r) + (size_t)i];
+    m->query.whitened = -1;
+    whitener_add(m->kernels, n, i, G, 1.0, more, m->query.white, &m->query.add);
 }
 
 /* Forgetting takes the priors away with the rest: gives Sigma's back what it lacks to its floor. */
 static void restore_prior_sigma(struct imle *m, int j)
 {
-    struct imle_strengths *s = &m->strengths[j];
-    const double *sigma = at(m->sigma_birth, j, (size_t)m->d);
+    struct imle_strengths *s = &m->state.strengths[j];
+    const double *sigma = at(m->state.sigma_birth, j, (size_t)m->d);
     double least = fmax(m->d, m->config.prior_floor * m->config.prior_sigma);
 
     if (s->prior_sigma >= least)
         return;
     for (int i = 0; i < m->d; i++)
-        add_to_coordinate(m, m->d, at(m->spread, j, whitener_row(m->d)), i,
+        add_to_coordinate(m, m->d, at(m->state.spread, j, whitener_row(m->d)), i,
                           (least - s->prior_sigma) * sigma[i]);
     s->prior_sigma = least;
 }
 
 static void learn_gate(struct imle *m, int j, double h, double delta, const double *z)
 {
-    struct imle_strengths *s = &m->strengths[j];
+    struct imle_strengths *s = &m->state.strengths[j];
     double least_nu = m->config.prior_floor * m->config.prior_nu;
 
     s->prior_sigma *= delta;
@@ -218,33 +220,34 @@ static void learn_gate(struct imle *m, int j, double h, double delta, const doub
     restore_prior_sigma(m, j);
     if (s->prior_nu < least_nu) {
         add_to_gate(m, j, 1.0, s->prior_nu + s->S, least_nu - s->prior_nu,
-                    at(m->nu0, j, (size_t)m->d));
+                    at(m->state.nu0, j, (size_t)m->d));
         s->prior_nu = least_nu;
     }
 }
 
-/* Slopes and residuals: one step of recursive least squares; m->gain is C^-1 (phi - phibar). */
+/* Slopes and residuals: one step of recursive least squares; m->query.gain is C^-1 (phi - phibar).
+ */
 static void correct_slopes(struct imle *m, int j, double step, const double *residual)
 {
-    double *W = at(m->W, j, (size_t)m->p * (size_t)m->D);
+    double *W = at(m->state.W, j, (size_t)m->p * (size_t)m->D);
 
     for (int i = 0; i < m->D; i++)
-        m->kernels->add(m->p, step * residual[i], m->gain, W + (size_t)i * (size_t)m->p);
+        m->kernels->add(m->p, step * residual[i], m->query.gain, W + (size_t)i * (size_t)m->p);
 }
 
 static void learn_regression(struct imle *m, int j, double h, double delta, const double *x)
 {
-    double *phibar = at(m->phibar, j, (size_t)m->p);
-    double *xbar = at(m->xbar, j, (size_t)m->D);
-    double *ssr = at(m->ssr, j, (size_t)m->D);
-    double past = delta * m->strengths[j].S;
+    double *phibar = at(m->state.phibar, j, (size_t)m->p);
+    double *xbar = at(m->state.xbar, j, (size_t)m->D);
+    double *ssr = at(m->state.ssr, j, (size_t)m->D);
+    double past = delta * m->state.strengths[j].S;
     double joint = past * h / (past + h);
     double xhat[LEARNER_MAX_OUTPUTS];
     double residual[LEARNER_MAX_OUTPUTS];
 
     imle_expert_output(m, j, xhat);
     imle_expert_whiten(m, j);
-    double gamma = m->leverage;
+    double gamma = m->query.leverage;
     double left = 1.0 / (1.0 + joint / delta * gamma);
     for (int i = 0; i < m->D; i++) {
         residual[i] = x[i] - xhat[i];
@@ -252,25 +255,25 @@ static void learn_regression(struct imle *m, int j, double h, double delta, cons
         xbar[i] += h / (past + h) * (x[i] - xbar[i]);
     }
     correct_slopes(m, j, joint / delta * left, residual);
-    m->kernels->add(m->p, h / (past + h), m->offset, phibar);
-    whitener_add(m->kernels, m->p, 0, at(m->whitener, j, whitener_row(m->p)), delta, joint,
-                 m->white, &m->add);
-    m->whitened = -1;
+    m->kernels->add(m->p, h / (past + h), m->query.offset, phibar);
+    whitener_add(m->kernels, m->p, 0, at(m->state.whitener, j, whitener_row(m->p)), delta, joint,
+                 m->query.white, &m->query.add);
+    m->query.whitened = -1;
 }
 
 /* Forgetting would in time take the ridge out of C. One coordinate a sample, in turn, gets back
  * what it lacks to the floor: O(p^2), like the update itself. The slopes stay what they are. */
 static void restore_ridge(struct imle *m, int j, double delta)
 {
-    struct imle_strengths *s = &m->strengths[j];
-    double *ridge = at(m->ridge, j, (size_t)m->p);
+    struct imle_strengths *s = &m->state.strengths[j];
+    double *ridge = at(m->state.ridge, j, (size_t)m->p);
     double least = m->config.prior_floor * m->config.ridge;
     int turn = (int)s->turn;
 
     for (int k = 0; k < m->p; k++)
         ridge[k] *= delta;
     if (ridge[turn] < least) {
-        add_to_coordinate(m, m->p, at(m->whitener, j, whitener_row(m->p)), turn,
+        add_to_coordinate(m, m->p, at(m->state.whitener, j, whitener_row(m->p)), turn,
                           least - ridge[turn]);
         ridge[turn] = least;
     }
@@ -279,7 +282,7 @@ static void restore_ridge(struct imle *m, int j, double delta)
 
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x)
 {
-    double delta = decay(m->strengths[j].H, h, m->config.alpha);
+    double delta = decay(m->state.strengths[j].H, h, m->config.alpha);
 
     learn_regression(m, j, h, delta, x);
     restore_ridge(m, j, delta);

@@ -13,7 +13,7 @@ static const double farthest = 1e100;
 
 /* An expert whose share, or t, is less than this of the largest does not slope the solution: all of
  * them together change the Jacobian by less than their number times this of what theirs differ. */
-static const double negligible = 1e-8;
+static const double negligible_part_of_largest = 1e-8;
 
 /* One cluster at work. */
 struct fusion {
@@ -28,7 +28,7 @@ struct fusion {
 
 static const double *psi_of(const struct imle *m, const struct imle_answer *answer)
 {
-    return m->psi + (size_t)answer->expert * (size_t)m->D;
+    return m->state.psi + (size_t)answer->expert * (size_t)m->D;
 }
 
 /* t of the cluster's members in its own units, their sum, and how many they are. */
@@ -37,12 +37,12 @@ static int weigh_members(struct imle *m, struct fusion *fusion, double log_outli
     int members = 0;
 
     fusion->scale = -INFINITY;
-    for (int a = 0; a < m->n_answers; a++)
-        if (m->answers[a].cluster == fusion->cluster)
-            fusion->scale = fmax(fusion->scale, m->answers[a].log_t);
+    for (int a = 0; a < m->query.n_answers; a++)
+        if (m->query.answers[a].cluster == fusion->cluster)
+            fusion->scale = fmax(fusion->scale, m->query.answers[a].log_t);
     fusion->W = fmin(elementary_exp(log_outlier - fusion->scale), farthest);
-    for (int a = 0; a < m->n_answers; a++) {
-        struct imle_answer *answer = &m->answers[a];
+    for (int a = 0; a < m->query.n_answers; a++) {
+        struct imle_answer *answer = &m->query.answers[a];
         if (answer->cluster != fusion->cluster)
             continue;
         answer->t = elementary_exp(answer->log_t - fusion->scale);
@@ -56,7 +56,7 @@ static int weigh_members(struct imle *m, struct fusion *fusion, double log_outli
 /* Probability of the cluster among all answers and outliers, given the query alone. */
 static double cluster_weight(const struct imle *m, const struct fusion *fusion)
 {
-    return fusion->inside * elementary_exp(fusion->scale - m->largest_log_t) / m->all_t;
+    return fusion->inside * elementary_exp(fusion->scale - m->query.largest_log_t) / m->query.all_t;
 }
 
 static double share_of(const struct imle *m, const struct fusion *fusion,
@@ -69,13 +69,14 @@ static double share_of(const struct imle *m, const struct fusion *fusion,
     return answer->t / (answer->gamma * answer->t + fusion->W);
 }
 
-static void average(struct imle *m, struct fusion *fusion, struct learner_solution *solution)
+static void average_answers(struct imle *m, struct fusion *fusion,
+                            struct learner_solution *solution)
 {
     double sum[LEARNER_MAX_OUTPUTS] = {0.0};
 
     fusion->largest_share = -1.0;
-    for (int a = 0; a < m->n_answers; a++) {
-        struct imle_answer *answer = &m->answers[a];
+    for (int a = 0; a < m->query.n_answers; a++) {
+        struct imle_answer *answer = &m->query.answers[a];
         if (answer->cluster != fusion->cluster)
             continue;
         answer->share = share_of(m, fusion, answer);
@@ -121,13 +122,14 @@ static void share_slope(const struct imle *m, const struct fusion *fusion,
  * d W = - sum t_j kappa_j over the cluster. */
 static void weight_slope(struct imle *m, struct fusion *fusion, const double *z)
 {
-    for (int a = 0; a < m->n_answers; a++) {
-        struct imle_answer *answer = &m->answers[a];
+    for (int a = 0; a < m->query.n_answers; a++) {
+        struct imle_answer *answer = &m->query.answers[a];
         int j = answer->expert;
-        if (answer->cluster != fusion->cluster || answer->t < negligible)
+        if (answer->cluster != fusion->cluster || answer->t < negligible_part_of_largest)
             continue;
         double q = imle_gate_pull(m, j, z, answer->kappa);
-        double factor = 2.0 * m->gate.exponent[j] * m->gate.per_a[j] / (1.0 + q * m->gate.per_a[j]);
+        double factor = 2.0 * m->derived.gate.exponent[j] * m->derived.gate.per_a[j] /
+                        (1.0 + q * m->derived.gate.per_a[j]);
         for (int i = 0; i < m->d; i++) {
             answer->kappa[i] *= factor;
             fusion->dW[i] -= answer->t * answer->kappa[i];
@@ -150,7 +152,7 @@ static void add_to_jacobian(struct imle *m, const struct fusion *fusion, struct 
         double difference = answer->xhat[i] - solution->value[i];
         for (int c = 0; c < m->d; c++)
             solution->jacobian[i * m->d + c] +=
-                per * (answer->share * m->slope[i * m->d + c] + difference * dshare[c]);
+                per * (answer->share * m->query.slope[i * m->d + c] + difference * dshare[c]);
     }
 }
 
@@ -162,13 +164,13 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
     memset(solution, 0, sizeof *solution);
     solution->members = weigh_members(m, &fusion, log_outlier);
     solution->weight = cluster_weight(m, &fusion);
-    average(m, &fusion, solution);
+    average_answers(m, &fusion, solution);
     if (!m->config.average_jacobian)
         weight_slope(m, &fusion, z);
-    for (int a = 0; a < m->n_answers; a++) {
-        struct imle_answer *answer = &m->answers[a];
-        if (answer->cluster == cluster && answer->t >= negligible &&
-            answer->share >= negligible * fusion.largest_share)
+    for (int a = 0; a < m->query.n_answers; a++) {
+        struct imle_answer *answer = &m->query.answers[a];
+        if (answer->cluster == cluster && answer->t >= negligible_part_of_largest &&
+            answer->share >= negligible_part_of_largest * fusion.largest_share)
             add_to_jacobian(m, &fusion, answer, solution);
     }
 }

@@ -1,8 +1,11 @@
-/* The infinite mixture of experts behind the learner's interface: creation and the table. */
+/* The infinite mixture of experts behind the learner's interface: checks, creation and the
+ * table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "learner/base/hash.h"
+#include "learner/base/ranges.h"
 #include "learner/imle/chi2.h"
 #include "learner/imle/imle.h"
 
@@ -15,8 +18,25 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
     m->small = m->p <= LEARNER_MAX_INPUTS;
 }
 
-static int check(const struct learner_config *config, char *err, size_t err_size)
+static int check_variances(const struct learner_config *config, char *err, size_t err_size)
 {
+    for (int i = 0; i < config->n_inputs; i++) {
+        const struct learner_range range = {"sigma0", config->sigma0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    for (int i = 0; i < config->n_outputs; i++) {
+        const struct learner_range range = {"psi0", config->psi0[i], 1e-12, 1e12};
+        if (learner_check_ranges(&range, 1, err, err_size) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_parameters(const struct learner_config *config, char *err, size_t err_size)
+{
+    if (check_variances(config, err, err_size) != 0)
+        return -1;
     if (!kernels_of(config->kernels)) {
         snprintf(err, err_size, "kernels is %d: this machine has no such vectors",
                  (int)config->kernels);
@@ -27,6 +47,12 @@ static int check(const struct learner_config *config, char *err, size_t err_size
     snprintf(err, err_size, "degree %d of %d inputs gives more than %d features: lower the degree",
              config->degree, config->n_inputs, FEATURE_MAP_MAX);
     return -1;
+}
+
+static uint64_t hash_variances(const struct learner_config *config, uint64_t hash)
+{
+    hash = learner_hash(hash, config->sigma0, (size_t)config->n_inputs * sizeof(double));
+    return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
 }
 
 static size_t memory(const struct learner_config *config)
@@ -46,12 +72,12 @@ static void *create(const struct learner_config *config, struct arena *arena)
         return NULL;
     set_dimensions(m, config);
     m->kernels = kernels_of(config->kernels);
-    m->whitened = -1;
+    m->query.whitened = -1;
     m->map = feature_map_create(config, arena);
     if (!m->map || imle_layout(m, arena) == 0)
         return NULL;
-    memcpy(m->sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
-    memcpy(m->psi_bar, config->psi0, (size_t)m->D * sizeof(double));
+    memcpy(m->state.sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
+    memcpy(m->state.psi_bar, config->psi0, (size_t)m->D * sizeof(double));
     m->log_c_joint = -0.5 * chi2_quantile(m->d + m->D, 1.0 - config->p0);
     m->log_c_input = -0.5 * chi2_quantile(m->d, 1.0 - config->p0);
     m->leader_threshold = chi2_quantile(m->D, config->leader_level);
@@ -82,12 +108,13 @@ static int experts(const void *self)
 {
     const struct imle *m = self;
 
-    return m->M;
+    return m->state.M;
 }
 
 const struct learner_ops learner_imle_ops = {
-    .name = "imle",
-    .check = check,
+    .number = 0,
+    .check = check_parameters,
+    .hash = hash_variances,
     .memory = memory,
     .create = create,
     .update = update,

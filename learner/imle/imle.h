@@ -1,4 +1,5 @@
-/* The state of the mixture, and the jobs that work on it, one file each.
+/* The mixture: what it has learned, what follows from that, the memory of one call; and the jobs
+ * that work on these, one file each.
  *
  * Letters: d inputs, D outputs, p features, M experts. What a scan over all experts reads (lanes,
  * gate) is laid out for vector instructions, number by number over the experts. What only the few
@@ -62,30 +63,15 @@ struct imle_answer {
     bool sloped;
 };
 
-struct imle {
-    struct learner_config config;
-    struct feature_map *map;
-    const struct kernels *kernels;
-    int d, D, p;
+/* What is learned: it is saved, and grows with the samples. Arrays hold a part of each expert, one
+ * after the other. */
+struct imle_state {
     int M;
     int outliers_in_row;
-    double log_c_joint; /* log c_{d+D}, log c_d of the outlier densities */
-    double log_c_input;
-    double leader_threshold; /* chi-square quantile of the leader rule */
-
-    double *sigma_bar; /* d: the shared priors */
+    double *sigma_bar; /* d: the priors that all experts share */
     double *psi_bar;   /* D */
-
-    /* for a scan: all experts */
-    double *lanes; /* blocks of 8 experts: nu, and the root R of Sigma^-1 = R' R (kernels.h) */
-    struct imle_gate gate;
-    bool small;         /* few features: what follows is used */
-    double *regression; /* blocks of 8 experts: what answers need (kernels.h, regress) */
-
-    /* M experts each */
     struct imle_strengths *strengths;
     double *nu;          /* d: centre */
-    double *precision;   /* d: diagonal of Sigma^-1 */
     double *nu0;         /* d: where it was born */
     double *sigma_birth; /* d: Sigma_bar at its birth */
     double *spread;      /* packed d: whitener of Sigma's numerator */
@@ -96,34 +82,73 @@ struct imle {
     double *ridge;       /* p: what forgetting has left of the ridge in C */
     double *ssr;         /* D: squared residuals */
     double *psi;         /* D: Psi_j */
+};
 
-    /* scratch for one call */
-    double *phi;                 /* p */
-    double *dphi;                /* d x p */
-    double *offset;              /* p: phi - phibar of one expert */
+/* What follows from the state, computed anew whenever an expert changes: neither saved nor loaded.
+ */
+struct imle_derived {
+    double *lanes; /* blocks of 8 experts: nu, and the root R of Sigma^-1 = R' R (kernels.h) */
+    struct imle_gate gate;
+    double *precision;  /* M x d: diagonal of Sigma^-1 */
+    double *regression; /* few features alone: blocks of 8 experts, what answers need (kernels.h,
+                           regress) */
+    double *prior_sums; /* blocks of IMLE_SUM experts: d + D sums over them */
+    bool *stale;        /* each of these blocks: whether an expert has changed */
+};
+
+/* Memory of one call, and what is known so far of the sample or query that it is about. */
+struct imle_query {
+    double *phi;  /* p: features */
+    double *dphi; /* d x p */
+    double target[LEARNER_MAX_OUTPUTS];
+    double *q;     /* M, up to a multiple of 8: squared distances */
+    double *log_t; /* the same */
+
+    /* One memory of M numbers, up to a multiple of 8: nothing needs two of them at once. */
+    union {
+        double *log_h;     /* learn.c: log h_j before normalising, or what it can be at most */
+        double *h;         /* learn.c, after that: h_j in units of the largest */
+        double *lag;       /* predict.c: how far an expert is behind the best, a logarithm */
+        double *log_width; /* cluster_leader.c: log |R|^(1/2) of an answer */
+        double *cost;      /* inverse.c: -log weight of the best input that an expert knows */
+    };
+    int *order; /* M: indices of experts or answers, chosen or sorted */
+
+    /* of one expert */
+    double *offset;              /* p: phi - phibar */
     double *white;               /* p: its whitener times that offset */
     double *gain;                /* p: C^-1 times that offset */
     int whitened;                /* the expert that white and gain are of, or -1 */
     double leverage;             /* of the same: |white|^2 */
-    struct whitener_scratch add; /* p each */
-    bool *answered;              /* each block of 8 experts: whether outputs, misfits are known */
-    bool *levered;               /* the same for leverages */
-    double *leverages;           /* M, up to a multiple of 8 */
-    double *misfits;             /* the same */
-    double target[LEARNER_MAX_OUTPUTS];
-    double *outputs;             /* blocks of D x 8 */
-    double *prior_sums;          /* blocks of IMLE_SUM experts: d + D sums over them */
-    bool *stale;                 /* each of these blocks: whether an expert has changed */
-    double *log_t;               /* M, up to a multiple of 8 */
-    double *log_h;               /* the same */
-    double *q;                   /* the same */
     double *slope;               /* D x d */
-    int *order;                  /* M */
+    struct whitener_scratch add; /* p each */
+
+    /* of all experts, where they have been asked */
+    bool *answered;    /* each block of 8 experts: whether outputs, misfits are known */
+    bool *levered;     /* the same for leverages */
+    double *leverages; /* M, up to a multiple of 8 */
+    double *misfits;   /* the same */
+    double *outputs;   /* blocks of D x 8 */
+
     struct imle_answer *answers; /* IMLE_MOST_ANSWERS */
     int n_answers;
     double largest_log_t; /* of all experts */
     double all_t;         /* sum of t over the answers, and p_out(z), relative to that */
     struct imle_split_scratch *split;
+};
+
+struct imle {
+    struct learner_config config;
+    struct feature_map *map;
+    const struct kernels *kernels;
+    int d, D, p;
+    bool small;         /* few features: experts answer in blocks */
+    double log_c_joint; /* log c_{d+D}, log c_d of the outlier densities */
+    double log_c_input;
+    double leader_threshold; /* chi-square quantile of the leader rule */
+    struct imle_state state;
+    struct imle_derived derived;
+    struct imle_query query;
 };
 
 /* imle/layout.c ---------------------------------------------------------------------------- */
@@ -150,7 +175,7 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
  * the capacity. phi are the features at z. */
 void imle_expert_birth(struct imle *m, const double *z, const double *x, int parent);
 
-/* Learns (z, x) with responsibility h in expert j; m->phi are the features at z. */
+/* Learns (z, x) with responsibility h in expert j; m->query.phi are the features at z. */
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x);
 
 /* Recomputes everything that is derived from the state of expert j. */
@@ -162,10 +187,10 @@ void imle_expert_refresh(struct imle *m, int j);
 size_t imle_lanes_block(int d);
 size_t imle_lanes_experts(const struct learner_config *config);
 
-/* m->q of all experts at z. */
+/* m->query.q of all experts at z. */
 void imle_scan_distances(struct imle *m, const double *z);
 
-/* m->log_t of expert j (and its neighbours), or of all, from m->q. */
+/* m->query.log_t of expert j (and its neighbours), or of all, from m->query.q. */
 void imle_density_near(struct imle *m, int j);
 void imle_densities(struct imle *m);
 
@@ -178,12 +203,16 @@ double imle_gate_pull(const struct imle *m, int j, const double *z, double *pull
 /* Sigma^-1 of expert j, packed (imle/triangle.h). */
 void imle_gate_precision(const struct imle *m, int j, double *packed);
 
+/* log of the outlier densities p_out(z, x) and p_out(z). */
+double imle_log_outlier_joint(const struct imle *m);
+double imle_log_outlier_input(const struct imle *m);
+
 /* imle/answer.c ---------------------------------------------------------------------------- */
 
-/* The features m->phi are new, and x (or NULL) is what they lead to: nothing is known yet. */
+/* The features m->query.phi are new, and x (or NULL) is what they lead to: nothing is known yet. */
 void imle_new_query(struct imle *m, const double *x);
 
-/* Numbers of one block of m->regression. */
+/* Numbers of one block of m->derived.regression. */
 size_t imle_regression_block(int p, int D);
 
 /* What expert j and its neighbours answered to this query is no longer true. */
@@ -192,7 +221,7 @@ void imle_forget_answers(struct imle *m, int j);
 /* Expert j has changed: its lane, where lanes are in use. */
 void imle_regression_write(struct imle *m, int j);
 
-/* xhat[D] of expert j at the features m->phi. */
+/* xhat[D] of expert j at the features m->query.phi. */
 void imle_expert_output(struct imle *m, int j, double *xhat);
 
 /* sum (x - xhat)^2 / Psi of expert j for the x of imle_new_query(); the second one's from j to the
@@ -200,26 +229,19 @@ void imle_expert_output(struct imle *m, int j, double *xhat);
 double imle_expert_misfit(struct imle *m, int j);
 const double *imle_expert_misfits(struct imle *m, int j);
 
-/* by_input[d] = dphi' by_feature[p]: from derivatives by features to those by inputs. */
-void imle_to_inputs(const struct imle *m, const double *by_feature, double *by_input);
-
-/* d xhat / d z of expert j at the derivative m->dphi: W dphi', D x d row-major, into m->slope. */
+/* d xhat / d z of expert j at the derivative m->query.dphi: W dphi', D x d row-major, into
+ * m->query.slope. */
 void imle_expert_slope(struct imle *m, int j);
 
-/* (phi - phibar)' C^-1 (phi - phibar) of expert j at the features m->phi. */
-double imle_expert_leverage(struct imle *m, int j);
-
-/* Leaves G (phi - phibar) of expert j in m->white and C^-1 (phi - phibar) in m->gain. */
+/* Leaves G (phi - phibar) of expert j in m->query.white and C^-1 (phi - phibar) in m->query.gain.
+ */
 void imle_expert_whiten(struct imle *m, int j);
 
 /* gamma_j = noise_share (leverage + 1 / S_h): the regression's own uncertainty, in units of Psi. */
 double imle_expert_gamma(struct imle *m, int j);
 
-/* imle_density.c --------------------------------------------------------------------------- */
-
-/* log of the outlier densities p_out(z, x) and p_out(z). */
-double imle_log_outlier_joint(const struct imle *m);
-double imle_log_outlier_input(const struct imle *m);
+/* The answer's dgamma; the query's dphi must be in m->query.dphi. */
+void imle_gamma_slope(struct imle *m, struct imle_answer *answer);
 
 /* imle/priors.c ---------------------------------------------------------------------------- */
 
@@ -233,24 +255,23 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 int imle_predict(struct imle *m, const double *z, struct learner_prediction *prediction);
 int imle_predict_single(struct imle *m, const double *z, struct learner_solution *solution);
 
-/* The answer's dgamma; the query's dphi must be in m->dphi. */
-void imle_gamma_slope(struct imle *m, struct imle_answer *answer);
-
 /* imle/cluster_split.c, imle/cluster_leader.c ------------------------------------------------ */
 
-/* Give each of m->answers its cluster; return how many there are (1 or more; none is empty). They
- * use m->order and m->log_h as scratch. */
+/* Give each of m->query.answers its cluster; return how many there are (1 or more; none is empty).
+ */
 int imle_cluster_by_splitting(struct imle *m);
 size_t imle_split_memory(void);
 int imle_cluster_by_leaders(struct imle *m);
 
-/* Sorts the first n indices in m->order by m->log_h[index], smallest first; equals by index. */
-void imle_sort_order(struct imle *m, int n);
+/* imle/sort.c ------------------------------------------------------------------------------ */
+
+/* Sorts n indices by key[index], smallest first; equals by index. */
+void imle_sort_by(const double *key, int *index, int n);
 
 /* imle/fuse.c ------------------------------------------------------------------------------ */
 
 /* The solution that the answers of one cluster give together, with its Jacobian; log_outlier is
- * log p_out(z). m->phi and m->dphi must be those of the query. */
+ * log p_out(z). m->query.phi and m->query.dphi must be those of the query. */
 void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
                struct learner_solution *solution);
 

@@ -15,7 +15,8 @@
 
 enum { MOST_STEPS = 20, PACKED = LEARNER_MAX_INPUTS * (LEARNER_MAX_INPUTS + 1) / 2 };
 
-static const double negligible = 40.0;
+/* An answer whose log weight is this much under the strongest one's is not given. */
+static const double negligible_under_strongest = 40.0;
 
 /* The search of one expert. */
 struct search {
@@ -32,13 +33,13 @@ static const double *part(const double *array, int expert, size_t size)
     return array + (size_t)expert * size;
 }
 
-/* What the expert says at s->z; its features stay in m->phi. */
-static void evaluate(struct imle *m, struct search *s, const double *x)
+/* What the expert says at s->z; its features stay in m->query.phi. */
+static void evaluate_at(struct imle *m, struct search *s, const double *x)
 {
-    const double *psi = part(m->psi, s->expert, (size_t)m->D);
+    const double *psi = part(m->state.psi, s->expert, (size_t)m->D);
     double xhat[LEARNER_MAX_OUTPUTS];
 
-    feature_map_evaluate(m->map, s->z, m->phi);
+    feature_map_evaluate(m->map, s->z, m->query.phi);
     imle_new_query(m, NULL);
     imle_expert_output(m, s->expert, xhat);
     s->cost = imle_gate_pull(m, s->expert, s->z, s->downhill);
@@ -58,15 +59,15 @@ static void begin_with_gate(const struct imle *m, struct search *s)
 }
 
 /* A and downhill at s->z. */
-static void linearise(struct imle *m, struct search *s)
+static void linearise_at(struct imle *m, struct search *s)
 {
-    const double *psi = part(m->psi, s->expert, (size_t)m->D);
+    const double *psi = part(m->state.psi, s->expert, (size_t)m->D);
 
     begin_with_gate(m, s);
-    feature_map_derivative(m->map, s->z, m->phi, m->dphi);
+    feature_map_derivative(m->map, s->z, m->query.phi, m->query.dphi);
     imle_expert_slope(m, s->expert);
     for (int o = 0; o < m->D; o++) {
-        const double *slope = m->slope + o * m->d;
+        const double *slope = m->query.slope + o * m->d;
         for (int i = 0; i < m->d; i++) {
             s->downhill[i] += slope[i] / psi[o] * s->residual[o];
             for (int k = i; k < m->d; k++)
@@ -92,26 +93,26 @@ static bool solve_step(const struct imle *m, const struct search *s, double damp
 }
 
 /* Walks from the expert's centre to its best z, and leaves A there. */
-static void seek(struct imle *m, struct search *s, const double *x)
+static void seek_input(struct imle *m, struct search *s, const double *x)
 {
     bool linear = m->config.features == LEARNER_LINEAR;
     double damping = linear ? 0.0 : 1e-3;
     double step[LEARNER_MAX_INPUTS];
 
-    memcpy(s->z, part(m->nu, s->expert, (size_t)m->d), (size_t)m->d * sizeof(double));
-    evaluate(m, s, x);
-    linearise(m, s);
+    memcpy(s->z, part(m->state.nu, s->expert, (size_t)m->d), (size_t)m->d * sizeof(double));
+    evaluate_at(m, s, x);
+    linearise_at(m, s);
     for (int n = 0; n < (linear ? 1 : MOST_STEPS); n++) {
         struct search next = *s;
         if (!solve_step(m, s, damping, step))
             return;
         for (int i = 0; i < m->d; i++)
             next.z[i] += step[i];
-        evaluate(m, &next, x);
+        evaluate_at(m, &next, x);
         double gain = s->cost - next.cost;
         damping *= gain > 0.0 ? 0.2 : 10.0;
         if (gain > 0.0 || linear) {
-            linearise(m, &next);
+            linearise_at(m, &next);
             *s = next;
         }
         if (fabs(gain) < 1e-12 * (1.0 + s->cost))
@@ -131,7 +132,8 @@ static double log_weight(const struct imle *m, const struct search *s)
         return -INFINITY;
     for (int i = 0; i < m->d; i++)
         log_det += elementary_log(L[triangle_column(m->d, i)]);
-    return m->gate.log_det[s->expert] - log_det - m->gate.half_log_psi[s->expert] - 0.5 * s->cost;
+    return m->derived.gate.log_det[s->expert] - log_det - m->derived.gate.half_log_psi[s->expert] -
+           0.5 * s->cost;
 }
 
 /* Packed A^-1. */
@@ -168,8 +170,8 @@ static double contradiction(const struct imle *m, const double *z_a, const doubl
 }
 
 /* Appends the answer unless an earlier one already says the same. */
-static void gather(const struct imle *m, const struct search *s, double weight, double threshold,
-                   double (*C)[PACKED], struct learner_inverse *inverse)
+static void add_unless_known(const struct imle *m, const struct search *s, double weight,
+                             double threshold, double (*C)[PACKED], struct learner_inverse *inverse)
 {
     int n = inverse->n_solutions;
     struct learner_inverse_solution *solution = &inverse->solution[n];
@@ -192,20 +194,20 @@ int imle_predict_inverse(struct imle *m, const double *x, struct learner_inverse
     double threshold = chi2_quantile(m->d, m->config.leader_level);
     double C[LEARNER_MAX_SOLUTIONS][PACKED];
 
-    for (int j = 0; j < m->M; j++) {
+    for (int j = 0; j < m->state.M; j++) {
         struct search s = {.expert = j};
-        seek(m, &s, x);
-        m->order[j] = j;
-        m->log_h[j] = -log_weight(m, &s);
+        seek_input(m, &s, x);
+        m->query.order[j] = j;
+        m->query.cost[j] = -log_weight(m, &s);
     }
-    imle_sort_order(m, m->M);
-    for (int k = 0; k < m->M && inverse->n_solutions < m->config.n_solutions_max; k++) {
-        struct search s = {.expert = m->order[k]};
-        double below = m->log_h[m->order[k]] - m->log_h[m->order[0]];
-        if (!(below < negligible))
+    imle_sort_by(m->query.cost, m->query.order, m->state.M);
+    for (int k = 0; k < m->state.M && inverse->n_solutions < m->config.n_solutions_max; k++) {
+        struct search s = {.expert = m->query.order[k]};
+        double below = m->query.cost[m->query.order[k]] - m->query.cost[m->query.order[0]];
+        if (!(below < negligible_under_strongest))
             break;
-        seek(m, &s, x);
-        gather(m, &s, elementary_exp(-below), threshold, C, inverse);
+        seek_input(m, &s, x);
+        add_unless_known(m, &s, elementary_exp(-below), threshold, C, inverse);
     }
     return inverse->n_solutions;
 }

@@ -6,13 +6,16 @@
 
 /* An expert whose share is bounded by exp(-this) of the rest is not looked at closely: all of them
  * together change a responsibility by less than M exp(-this), 1e-10 of it for 1000 experts. */
-static const double negligible = 30.0;
+static const double negligible_under_largest_share = 30.0;
 
 /* The same in the sum that tells an outlier: it changes by less than 1e-8 of what decides. */
-static const double negligible_density = 18.5;
+static const double negligible_under_outlier = 18.5;
 
-/* Who may have a share in the sample: m->order[0 .. n), and their log h_j before normalising in
- * m->log_h. */
+/* A density under exp(-this) of what decides counts as nothing in that sum. */
+static const double vanishing_under_outlier = 30.0;
+
+/* Who may have a share in the sample: m->query.order[0 .. n), and their log h_j before normalising
+ * in m->query.log_h. */
 struct shares {
     int n;
     int best; /* the expert with the largest share, or -1 */
@@ -20,12 +23,12 @@ struct shares {
 };
 
 /* Distances and features of the sample; false when its features are too large to compute with. */
-static bool look_at(struct imle *m, const double *z, const double *x)
+static bool look_at_sample(struct imle *m, const double *z, const double *x)
 {
     imle_new_query(m, x);
-    feature_map_evaluate(m->map, z, m->phi);
+    feature_map_evaluate(m->map, z, m->query.phi);
     for (int k = 0; k < m->p; k++)
-        if (!(fabs(m->phi[k]) <= LEARNER_LARGEST_FEATURE))
+        if (!(fabs(m->query.phi[k]) <= LEARNER_LARGEST_FEATURE))
             return false;
     imle_scan_distances(m, z);
     return true;
@@ -34,7 +37,7 @@ static bool look_at(struct imle *m, const double *z, const double *x)
 /* What log p_j(z, x) can be at most: the residual only lowers it. */
 static double most_density(const struct imle *m, int j)
 {
-    return m->log_t[j] - m->gate.half_log_psi[j];
+    return m->query.log_t[j] - m->derived.gate.half_log_psi[j];
 }
 
 /* p_j(z, x) in units of exp(log_unit), cut at e. */
@@ -43,7 +46,7 @@ static double joint_density(struct imle *m, int j, double log_unit)
     double inflation = 1.0 + imle_expert_gamma(m, j);
     double log_p = most_density(m, j) - log_unit - 0.5 * imle_expert_misfit(m, j) / inflation;
 
-    if (log_p < -negligible)
+    if (log_p < -vanishing_under_outlier)
         return 0.0;
     return elementary_exp(fmin(log_p - 0.5 * m->D * elementary_log(inflation), 1.0));
 }
@@ -54,15 +57,15 @@ static bool is_outlier(struct imle *m, int best)
 {
     if (best < 0)
         return true;
-    double log_M = elementary_log(m->M);
+    double log_M = elementary_log(m->state.M);
     double threshold = imle_log_outlier_joint(m) - log_M;
     imle_density_near(m, best);
     double sum = joint_density(m, best, threshold);
     if (sum >= 1.0)
         return false;
     imle_densities(m);
-    for (int j = 0; j < m->M && sum < 1.0; j++)
-        if (j != best && most_density(m, j) >= threshold - log_M - negligible_density)
+    for (int j = 0; j < m->state.M && sum < 1.0; j++)
+        if (j != best && most_density(m, j) >= threshold - log_M - negligible_under_outlier)
             sum += joint_density(m, j, threshold);
     return sum < 1.0;
 }
@@ -72,19 +75,22 @@ static int parent_of_newborn(const struct imle *m)
 {
     int parent = -1;
 
-    for (int j = 0; m->config.inherit && j < m->M; j++)
-        if (parent < 0 || m->log_t[j] + m->gate.log_S[j] > m->log_t[parent] + m->gate.log_S[parent])
+    for (int j = 0; m->config.inherit && j < m->state.M; j++)
+        if (parent < 0 || m->query.log_t[j] + m->derived.gate.log_S[j] >
+                              m->query.log_t[parent] + m->derived.gate.log_S[parent])
             parent = j;
     return parent;
 }
 
-/* m->log_h becomes what log h_j were if each expert met x exactly; returns where it is largest. */
+/* m->query.log_h becomes what log h_j were if each expert met x exactly: an upper bound. Returns
+ * where it is largest. */
 static int bound_shares(struct imle *m)
 {
-    double largest = m->kernels->bounds(m->M, m->gate.log_peak, -0.5, m->q, m->log_h);
+    double largest =
+        m->kernels->bounds(m->state.M, m->derived.gate.log_peak, -0.5, m->query.q, m->query.log_h);
     int j = 0;
 
-    while (j < m->M - 1 && m->log_h[j] < largest)
+    while (j < m->state.M - 1 && m->query.log_h[j] < largest)
         j++;
     return j;
 }
@@ -93,12 +99,12 @@ static int bound_shares(struct imle *m)
 static void share_out(struct imle *m, int j, int n, struct shares *shares)
 {
     const double *misfits = imle_expert_misfits(m, j);
-    double top = m->kernels->bounds(n, m->log_h + j, -0.5, misfits, m->log_h + j);
+    double top = m->kernels->bounds(n, m->query.log_h + j, -0.5, misfits, m->query.log_h + j);
 
     if (top <= shares->largest)
         return;
     shares->largest = top;
-    while (m->log_h[j] < top)
+    while (m->query.log_h[j] < top)
         j++;
     shares->best = j;
 }
@@ -118,18 +124,18 @@ static struct shares gather_shares(struct imle *m)
     int step = m->small ? KERNEL_LANES : 1;
     struct shares shares = {.best = -1};
 
-    if (m->M == 0)
+    if (m->state.M == 0)
         return shares;
     shares.best = bound_shares(m);
-    shares.largest = m->log_h[shares.best] - 0.5 * imle_expert_misfit(m, shares.best);
-    for (int j = 0; j < m->M; j += step) {
-        int n = m->M - j < step ? m->M - j : step;
-        if (any_over(m->log_h + j, n, shares.largest - negligible))
+    shares.largest = m->query.log_h[shares.best] - 0.5 * imle_expert_misfit(m, shares.best);
+    for (int j = 0; j < m->state.M; j += step) {
+        int n = m->state.M - j < step ? m->state.M - j : step;
+        if (any_over(m->query.log_h + j, n, shares.largest - negligible_under_largest_share))
             share_out(m, j, n, &shares);
     }
-    for (int j = 0; j < m->M; j++)
-        if (m->log_h[j] >= shares.largest - negligible)
-            m->order[shares.n++] = j;
+    for (int j = 0; j < m->state.M; j++)
+        if (m->query.log_h[j] >= shares.largest - negligible_under_largest_share)
+            m->query.order[shares.n++] = j;
     return shares;
 }
 
@@ -140,16 +146,16 @@ static void learn_shares(struct imle *m, struct shares shares, int newborn, cons
 {
     double sum = 0.0;
 
-    if (newborn >= 0 && (shares.n == 0 || m->order[shares.n - 1] != newborn))
-        m->order[shares.n++] = newborn;
+    if (newborn >= 0 && (shares.n == 0 || m->query.order[shares.n - 1] != newborn))
+        m->query.order[shares.n++] = newborn;
     for (int k = 0; k < shares.n; k++) {
-        int j = m->order[k];
-        m->log_h[j] = elementary_exp(m->log_h[j] - shares.largest);
-        sum += m->log_h[j];
+        int j = m->query.order[k];
+        m->query.h[j] = elementary_exp(m->query.log_h[j] - shares.largest);
+        sum += m->query.h[j];
     }
     for (int k = 0; k < shares.n; k++) {
-        int j = m->order[k];
-        double h = m->log_h[j] / sum;
+        int j = m->query.order[k];
+        double h = m->query.h[j] / sum;
         if (j == newborn)
             h = fmax(h, 1e-3);
         if (h > m->config.skip)
@@ -161,22 +167,22 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 {
     int newborn = -1;
 
-    if (!look_at(m, z, x))
+    if (!look_at_sample(m, z, x))
         return LEARNER_REFUSED;
     struct shares shares = gather_shares(m);
     if (is_outlier(m, shares.best)) {
-        if (m->outliers_in_row < m->config.n_outliers) {
-            m->outliers_in_row++;
+        if (m->state.outliers_in_row < m->config.n_outliers) {
+            m->state.outliers_in_row++;
             return LEARNER_OUTLIER;
         }
-        if (m->M == m->config.capacity)
+        if (m->state.M == m->config.capacity)
             return LEARNER_FULL;
-        newborn = m->M;
+        newborn = m->state.M;
         imle_expert_birth(m, z, x, parent_of_newborn(m));
-        m->q[newborn] = 0.0;
+        m->query.q[newborn] = 0.0;
         shares = gather_shares(m);
     }
-    m->outliers_in_row = 0;
+    m->state.outliers_in_row = 0;
     learn_shares(m, shares, newborn, z, x);
     imle_priors_update(m);
     return newborn >= 0 ? LEARNER_BORN : LEARNER_UPDATED;

@@ -20,17 +20,17 @@ static double shared_prior(int n_experts, double own, double strength, double st
  * and a loaded state has the same. */
 static void sum_block(struct imle *m, int block)
 {
-    double *sums = m->prior_sums + (size_t)(block * (m->d + m->D));
-    int end = (block + 1) * IMLE_SUM < m->M ? (block + 1) * IMLE_SUM : m->M;
+    double *sums = m->derived.prior_sums + (size_t)(block * (m->d + m->D));
+    int end = (block + 1) * IMLE_SUM < m->state.M ? (block + 1) * IMLE_SUM : m->state.M;
 
     memset(sums, 0, (size_t)(m->d + m->D) * sizeof *sums);
     for (int j = block * IMLE_SUM; j < end; j++) {
         for (int i = 0; i < m->d; i++)
-            sums[i] += m->precision[j * m->d + i];
+            sums[i] += m->derived.precision[j * m->d + i];
         for (int i = 0; i < m->D; i++)
-            sums[m->d + i] += 1.0 / m->psi[j * m->D + i];
+            sums[m->d + i] += 1.0 / m->state.psi[j * m->D + i];
     }
-    m->stale[block] = false;
+    m->derived.stale[block] = false;
 }
 
 void imle_priors_update(struct imle *m)
@@ -39,9 +39,9 @@ void imle_priors_update(struct imle *m)
     double precision[LEARNER_MAX_INPUTS] = {0.0};
     double per_psi[LEARNER_MAX_OUTPUTS] = {0.0};
 
-    for (int block = 0; block * IMLE_SUM < m->M; block++) {
-        const double *sums = m->prior_sums + (size_t)(block * (m->d + m->D));
-        if (m->stale[block])
+    for (int block = 0; block * IMLE_SUM < m->state.M; block++) {
+        const double *sums = m->derived.prior_sums + (size_t)(block * (m->d + m->D));
+        if (m->derived.stale[block])
             sum_block(m, block);
         for (int i = 0; i < m->d; i++)
             precision[i] += sums[i];
@@ -49,9 +49,9 @@ void imle_priors_update(struct imle *m)
             per_psi[i] += sums[m->d + i];
     }
     for (int i = 0; i < m->d; i++)
-        m->sigma_bar[i] = shared_prior(m->M, config->prior_sigma, config->hyper_sigma,
-                                       config->sigma0[i], precision[i]);
+        m->state.sigma_bar[i] = shared_prior(m->state.M, config->prior_sigma, config->hyper_sigma,
+                                             config->sigma0[i], precision[i]);
     for (int i = 0; i < m->D; i++)
-        m->psi_bar[i] =
-            shared_prior(m->M, config->prior_psi, config->hyper_psi, config->psi0[i], per_psi[i]);
+        m->state.psi_bar[i] = shared_prior(m->state.M, config->prior_psi, config->hyper_psi,
+                                           config->psi0[i], per_psi[i]);
 }

@@ -28,7 +28,7 @@ size_t imle_state_size(const void *self, int n_experts)
     return (shared_numbers(m) + (size_t)n_experts * expert_numbers(m)) * sizeof(double);
 }
 
-static unsigned char *put(unsigned char *to, const void *from, size_t bytes)
+static unsigned char *put_bytes(unsigned char *to, const void *from, size_t bytes)
 {
     memcpy(to, from, bytes);
     return to + bytes;
@@ -37,20 +37,20 @@ static unsigned char *put(unsigned char *to, const void *from, size_t bytes)
 void imle_save(const void *self, unsigned char *buffer)
 {
     const struct imle *m = self;
-    double outliers = m->outliers_in_row;
+    double outliers = m->state.outliers_in_row;
     struct imle_part part;
 
-    buffer = put(buffer, m->sigma_bar, (size_t)m->d * sizeof(double));
-    buffer = put(buffer, m->psi_bar, (size_t)m->D * sizeof(double));
-    buffer = put(buffer, &outliers, sizeof outliers);
-    for (int j = 0; j < m->M; j++) {
-        buffer = put(buffer, &m->strengths[j], sizeof m->strengths[j]);
+    buffer = put_bytes(buffer, m->state.sigma_bar, (size_t)m->d * sizeof(double));
+    buffer = put_bytes(buffer, m->state.psi_bar, (size_t)m->D * sizeof(double));
+    buffer = put_bytes(buffer, &outliers, sizeof outliers);
+    for (int j = 0; j < m->state.M; j++) {
+        buffer = put_bytes(buffer, &m->state.strengths[j], sizeof m->state.strengths[j]);
         for (int k = 0; imle_state_part(m, j, k, &part); k++)
-            buffer = put(buffer, part.begin, part.size * sizeof(double));
+            buffer = put_bytes(buffer, part.begin, part.size * sizeof(double));
     }
 }
 
-static const unsigned char *get(void *to, const unsigned char *from, size_t bytes)
+static const unsigned char *get_bytes(void *to, const unsigned char *from, size_t bytes)
 {
     memcpy(to, from, bytes);
     return from + bytes;
@@ -61,14 +61,14 @@ static void copy_state(struct imle *m, const unsigned char *buffer)
     double outliers = 0.0;
     struct imle_part part;
 
-    buffer = get(m->sigma_bar, buffer, (size_t)m->d * sizeof(double));
-    buffer = get(m->psi_bar, buffer, (size_t)m->D * sizeof(double));
-    buffer = get(&outliers, buffer, sizeof outliers);
-    m->outliers_in_row = (int)outliers;
-    for (int j = 0; j < m->M; j++) {
-        buffer = get(&m->strengths[j], buffer, sizeof m->strengths[j]);
+    buffer = get_bytes(m->state.sigma_bar, buffer, (size_t)m->d * sizeof(double));
+    buffer = get_bytes(m->state.psi_bar, buffer, (size_t)m->D * sizeof(double));
+    buffer = get_bytes(&outliers, buffer, sizeof outliers);
+    m->state.outliers_in_row = (int)outliers;
+    for (int j = 0; j < m->state.M; j++) {
+        buffer = get_bytes(&m->state.strengths[j], buffer, sizeof m->state.strengths[j]);
         for (int k = 0; imle_state_part(m, j, k, &part); k++)
-            buffer = get(part.begin, buffer, part.size * sizeof(double));
+            buffer = get_bytes(part.begin, buffer, part.size * sizeof(double));
     }
 }
 
@@ -80,7 +80,7 @@ static bool part_fits(const struct imle_part *part, const unsigned char *buffer)
     double number = 0.0;
 
     for (size_t i = 0; i < part->size; i++) {
-        buffer = get(&number, buffer, sizeof number);
+        buffer = get_bytes(&number, buffer, sizeof number);
         bool on_diagonal = part->order > 0 && i == next_diagonal;
         if (!isfinite(number) || ((part->positive || on_diagonal) && !(number > 0.0)))
             return false;
@@ -107,11 +107,11 @@ static bool state_fits(const struct imle *m, int n_experts, const unsigned char 
 
     if (!part_fits(&shared, buffer))
         return false;
-    buffer = get(&outliers, buffer + shared.size * sizeof(double), sizeof outliers);
+    buffer = get_bytes(&outliers, buffer + shared.size * sizeof(double), sizeof outliers);
     if (!(outliers >= 0.0 && outliers <= m->config.n_outliers))
         return false;
     for (int j = 0; j < n_experts; j++) {
-        buffer = get(&strengths, buffer, sizeof strengths);
+        buffer = get_bytes(&strengths, buffer, sizeof strengths);
         if (!strengths_fit(m, &strengths))
             return false;
         for (int k = 0; imle_state_part(m, 0, k, &part); k++) {
@@ -131,9 +131,9 @@ int imle_load(void *self, int n_experts, const unsigned char *buffer, char *err,
         snprintf(err, err_size, "it holds numbers that no state can have");
         return -1;
     }
-    m->M = n_experts;
+    m->state.M = n_experts;
     copy_state(m, buffer);
-    for (int j = 0; j < m->M; j++)
+    for (int j = 0; j < m->state.M; j++)
         imle_expert_refresh(m, j);
     return 0;
 }

@@ -20,8 +20,6 @@ extern "C" {
 enum { KERNEL_LANES = 8 };
 
 struct kernels {
-    const char *name;
-
     /* sum a_i b_i */
     double (*dot)(int n, const double *a, const double *b);
 

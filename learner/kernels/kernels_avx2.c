@@ -1,5 +1,4 @@
 /* The kernels for vectors of four. */
 #define KERNELS_TABLE kernels_avx2
-#define KERNELS_NAME "avx2"
 #define KERNELS_WIDTH 4
 #include "learner/kernels/kernels_body.h"

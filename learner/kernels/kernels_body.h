@@ -314,7 +314,6 @@ static void weighted_sums(int n, const double *p, const double *weight, const do
 }
 
 const struct kernels KERNELS_TABLE = {
-    .name = KERNELS_NAME,
     .dot = dot,
     .apply = apply,
     .add = add,

@@ -4,50 +4,6 @@
 
 #include "learner/lwpr/lwpr.h"
 
-/* M v, for M upper triangular by rows. */
-static void root_times(int d, const double *root, const double *v, double *Mv)
-{
-    for (int i = 0; i < d; i++) {
-        double sum = 0.0;
-        for (int k = i; k < d; k++)
-            sum += *root++ * v[k];
-        Mv[i] = sum;
-    }
-}
-
-double lwpr_distance(const struct lwpr *m, const struct lwpr_field *f, const double *v)
-{
-    double Mv[LEARNER_MAX_INPUTS];
-    double q = 0.0;
-
-    if (m->p.diagonal_only)
-        for (int i = 0; i < m->d; i++)
-            Mv[i] = f->root[i] * v[i];
-    else
-        root_times(m->d, f->root, v, Mv);
-    for (int i = 0; i < m->d; i++)
-        q += Mv[i] * Mv[i];
-    return q;
-}
-
-void lwpr_metric_times(const struct lwpr *m, const struct lwpr_field *f, const double *v,
-                       double *Dv)
-{
-    const double *root = f->root;
-    double Mv[LEARNER_MAX_INPUTS];
-
-    if (m->p.diagonal_only) {
-        for (int i = 0; i < m->d; i++)
-            Dv[i] = root[i] * root[i] * v[i];
-        return;
-    }
-    root_times(m->d, root, v, Mv);
-    memset(Dv, 0, (size_t)m->d * sizeof *Dv);
-    for (int i = 0; i < m->d; i++)
-        for (int k = i; k < m->d; k++)
-            Dv[k] += *root++ * Mv[i];
-}
-
 static void rank_field(const struct lwpr *m, struct lwpr_rank *rank, int j)
 {
     if (rank->first < 0 || m->q[j] < m->q[rank->first]) {

@@ -40,7 +40,7 @@ static void set_widths(struct lwpr *m)
 }
 
 /* A block of the arena, or, without one, only its size added to the total. */
-static void *take(struct arena *arena, size_t bytes, size_t *total)
+static void *take_block(struct arena *arena, size_t bytes, size_t *total)
 {
     *total += arena_footprint(bytes);
     return arena ? arena_alloc(arena, bytes) : NULL;
@@ -54,12 +54,12 @@ size_t lwpr_layout(struct lwpr *m, struct arena *arena)
 
     set_widths(m);
     for (int k = 0; k < LWPR_PARTS; k++) {
-        m->part[k] = take(arena, places * m->width[k], &total);
+        m->part[k] = take_block(arena, places * m->width[k], &total);
         complete = complete && m->part[k];
     }
-    m->u = take(arena, (size_t)m->d * sizeof *m->u, &total);
-    m->q = take(arena, places * sizeof *m->q, &total);
-    m->rank = take(arena, (size_t)m->D * sizeof *m->rank, &total);
+    m->u = take_block(arena, (size_t)m->d * sizeof *m->u, &total);
+    m->q = take_block(arena, places * sizeof *m->q, &total);
+    m->rank = take_block(arena, (size_t)m->D * sizeof *m->rank, &total);
     complete = complete && m->u && m->q && m->rank;
     return complete || !arena ? total : 0;
 }

@@ -17,7 +17,7 @@ static int count_births(const struct lwpr *m)
     return births;
 }
 
-static void learn_in(const struct lwpr *m, int j, const double *x)
+static void learn_in_field(const struct lwpr *m, int j, const double *x)
 {
     const struct lwpr_field f = lwpr_field_at(m, j);
     int output = (int)f.head->output;
@@ -30,19 +30,19 @@ static void learn_in(const struct lwpr *m, int j, const double *x)
 }
 
 /* A field for every output that has none nearby. */
-static void give_birth(struct lwpr *m, const double *x)
+static void give_birth_to_fields(struct lwpr *m, const double *x)
 {
     for (int o = 0; o < m->D; o++) {
         if (is_known(m, o))
             continue;
         int j = lwpr_field_birth(m, o);
         m->q[j] = 0.0;
-        learn_in(m, j, x);
+        learn_in_field(m, j, x);
     }
 }
 
 /* Of two fields that a sample activates nearly fully, the one with the narrower metric goes. */
-static int superfluous(const struct lwpr *m, const struct lwpr_rank *rank)
+static int superfluous_field(const struct lwpr *m, const struct lwpr_rank *rank)
 {
     double trace[2];
 
@@ -58,12 +58,12 @@ static int superfluous(const struct lwpr *m, const struct lwpr_rank *rank)
 }
 
 /* Highest index first, since removal gives the last field's index to another. */
-static void prune(struct lwpr *m)
+static void prune_fields(struct lwpr *m)
 {
     int doomed[LEARNER_MAX_OUTPUTS];
 
     for (int o = 0; o < m->D; o++)
-        doomed[o] = superfluous(m, &m->rank[o]);
+        doomed[o] = superfluous_field(m, &m->rank[o]);
     for (int n = 0; n < m->D; n++) {
         int highest = 0;
         for (int o = 1; o < m->D; o++)
@@ -85,8 +85,8 @@ enum learner_update_result lwpr_learn(struct lwpr *m, const double *z, const dou
     int known = m->M;
     for (int j = 0; j < known; j++)
         if (m->q[j] < m->q_cutoff)
-            learn_in(m, j, x);
-    give_birth(m, x);
-    prune(m);
+            learn_in_field(m, j, x);
+    give_birth_to_fields(m, x);
+    prune_fields(m);
     return births > 0 ? LEARNER_BORN : LEARNER_UPDATED;
 }

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "common/base/elementary.h"
+#include "learner/base/hash.h"
+#include "learner/base/ranges.h"
 #include "learner/lwpr/lwpr.h"
 
 struct learner_lwpr_config learner_lwpr_default(int n_inputs)
@@ -29,7 +31,7 @@ struct learner_lwpr_config learner_lwpr_default(int n_inputs)
 }
 
 /* What rows of each other ask; each alone has been checked. */
-static int check(const struct learner_config *config, char *err, size_t err_size)
+static int check_parameters(const struct learner_config *config, char *err, size_t err_size)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
     /* A projection counts after 2 d samples: what is forgotten sooner would never count. */
@@ -48,10 +50,10 @@ static int check(const struct learner_config *config, char *err, size_t err_size
         if (learner_check_ranges(&norm, 1, err, err_size) != 0)
             return -1;
     }
-    return learner_check_ranges(ranges, sizeof ranges / sizeof ranges[0], err, err_size);
+    return LEARNER_CHECK_RANGES(ranges, err, err_size);
 }
 
-uint64_t learner_lwpr_hash(uint64_t hash, const struct learner_config *config)
+static uint64_t hash_parameters(const struct learner_config *config, uint64_t hash)
 {
     const struct learner_lwpr_config *p = &config->lwpr;
     const double numbers[] = {
@@ -129,8 +131,9 @@ static int experts(const void *self)
 }
 
 const struct learner_ops learner_lwpr_ops = {
-    .name = "lwpr",
-    .check = check,
+    .number = 2,
+    .check = check_parameters,
+    .hash = hash_parameters,
     .memory = memory,
     .create = create,
     .update = update,

@@ -119,11 +119,6 @@ static inline double lwpr_weight(double q)
     return elementary_exp(-0.5 * q);
 }
 
-/* (x - c)' D (x - c) of field f at v = x - c; and D v into Dv[d]. */
-double lwpr_distance(const struct lwpr *m, const struct lwpr_field *f, const double *v);
-void lwpr_metric_times(const struct lwpr *m, const struct lwpr_field *f, const double *v,
-                       double *Dv);
-
 /* Appends a field of `output` at m->u that knows nothing. M must be under the capacity. Returns its
  * index. */
 int lwpr_field_birth(struct lwpr *m, int output);
@@ -157,6 +152,11 @@ double lwpr_pls_answer(const struct lwpr *m, const struct lwpr_field *f, const d
 /* Bounds of the numbers on M's diagonal; no other number exceeds the upper one. */
 #define LWPR_SMALLEST_ROOT 1e-4
 #define LWPR_LARGEST_ROOT 1e6
+
+/* (x - c)' D (x - c) of field f at v = x - c; and D v into Dv[d]. */
+double lwpr_distance(const struct lwpr *m, const struct lwpr_field *f, const double *v);
+void lwpr_metric_times(const struct lwpr *m, const struct lwpr_field *f, const double *v,
+                       double *Dv);
 
 /* Index in M of its next diagonal number after `diagonal`, which is the row-th; 0 is the first. */
 int lwpr_next_diagonal(const struct lwpr *m, int diagonal, int row);

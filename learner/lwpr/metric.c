@@ -1,6 +1,6 @@
-/* A receptive field's distance metric D = M'M, learned by stochastic gradient descent on the
- * leave-one-out error of the field's regression plus a penalty on large D (table 4 of the paper).
- */
+/* A receptive field's distance metric D = M'M: what it makes of a vector, and how it is learned, by
+ * stochastic gradient descent on the leave-one-out error of the field's regression plus a penalty
+ * on large D (table 4 of the paper). */
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +13,50 @@ static const double largest_change = 0.07;
 /* 1 - h of a sample, h the leverage, counts as at least this where the memory terms divide by it: a
  * sample that makes its own fit would otherwise outweigh all others for thousands of samples. */
 static const double least_rest = 0.5;
+
+/* M v, for M upper triangular by rows. */
+static void root_times(int d, const double *root, const double *v, double *Mv)
+{
+    for (int i = 0; i < d; i++) {
+        double sum = 0.0;
+        for (int k = i; k < d; k++)
+            sum += *root++ * v[k];
+        Mv[i] = sum;
+    }
+}
+
+double lwpr_distance(const struct lwpr *m, const struct lwpr_field *f, const double *v)
+{
+    double Mv[LEARNER_MAX_INPUTS];
+    double q = 0.0;
+
+    if (m->p.diagonal_only)
+        for (int i = 0; i < m->d; i++)
+            Mv[i] = f->root[i] * v[i];
+    else
+        root_times(m->d, f->root, v, Mv);
+    for (int i = 0; i < m->d; i++)
+        q += Mv[i] * Mv[i];
+    return q;
+}
+
+void lwpr_metric_times(const struct lwpr *m, const struct lwpr_field *f, const double *v,
+                       double *Dv)
+{
+    const double *root = f->root;
+    double Mv[LEARNER_MAX_INPUTS];
+
+    if (m->p.diagonal_only) {
+        for (int i = 0; i < m->d; i++)
+            Dv[i] = root[i] * root[i] * v[i];
+        return;
+    }
+    root_times(m->d, root, v, Mv);
+    memset(Dv, 0, (size_t)m->d * sizeof *Dv);
+    for (int i = 0; i < m->d; i++)
+        for (int k = i; k < m->d; k++)
+            Dv[k] += *root++ * Mv[i];
+}
 
 int lwpr_next_diagonal(const struct lwpr *m, int diagonal, int row)
 {
@@ -92,7 +136,7 @@ void lwpr_metric_gradient(const struct lwpr *m, const struct lwpr_field *f,
 
 /* How far one sample's gradient is to be believed: its error before and after it was learned are
  * alike once the regression has settled, and far apart while the sample makes its own fit. */
-static double trust(const struct lwpr_step *step)
+static double trust_in_sample(const struct lwpr_step *step)
 {
     double before = step->e_cv * step->e_cv;
     double ratio = before > 0.0 ? fmin(step->e * step->e / before, 1.0) : 0.0;
@@ -109,8 +153,8 @@ static bool too_far(const struct lwpr *m, const struct lwpr_field *f, double sca
     return false;
 }
 
-static void descend(const struct lwpr *m, const struct lwpr_field *f, double scale,
-                    const double *gradient)
+static void descend_gradient(const struct lwpr *m, const struct lwpr_field *f, double scale,
+                             const double *gradient)
 {
     bool refused = too_far(m, f, scale, gradient);
 
@@ -143,11 +187,11 @@ void lwpr_metric_learn(const struct lwpr *m, const struct lwpr_field *f,
                        const struct lwpr_step *step)
 {
     double gradient[LEARNER_MAX_INPUTS * (LEARNER_MAX_INPUTS + 1) / 2];
-    double scale = trust(step);
+    double scale = trust_in_sample(step);
 
     if (step->mature == 0)
         return;
     lwpr_metric_gradient(m, f, step, gradient);
-    descend(m, f, scale, gradient);
+    descend_gradient(m, f, scale, gradient);
     remember_sample(f, scale, step);
 }

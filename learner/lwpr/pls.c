@@ -199,7 +199,8 @@ void lwpr_pls_learn(const struct lwpr *m, const struct lwpr_field *f, double y,
 }
 
 /* Projects z[d], which is overwritten; s[n] and the answer's part above the mean. */
-static double project(const struct lwpr *m, const struct lwpr_field *f, int n, double *z, double *s)
+static double project_input(const struct lwpr *m, const struct lwpr_field *f, int n, double *z,
+                            double *s)
 {
     double sum = 0.0;
 
@@ -213,7 +214,7 @@ static double project(const struct lwpr *m, const struct lwpr_field *f, int n, d
 
 /* d yhat / d v: the projections' chain, last one first. With g the gradient by what projection r
  * leaves over, that by what it gets is g - u (p'g) + beta u. */
-static void gradient(const struct lwpr *m, const struct lwpr_field *f, int n, double *slope)
+static void answer_gradient(const struct lwpr *m, const struct lwpr_field *f, int n, double *slope)
 {
     memset(slope, 0, (size_t)m->d * sizeof *slope);
     for (int r = n - 1; r >= 0; r--) {
@@ -234,8 +235,8 @@ double lwpr_pls_answer(const struct lwpr *m, const struct lwpr_field *f, const d
 
     for (int i = 0; i < m->d; i++)
         z[i] = v[i] - f->mean[i];
-    double y = f->head->mean_y + project(m, f, n, z, s);
-    gradient(m, f, n, slope);
+    double y = f->head->mean_y + project_input(m, f, n, z, s);
+    answer_gradient(m, f, n, slope);
     *variance = INFINITY;
     if (n == 0)
         return y;

@@ -18,7 +18,7 @@ struct blend {
     int nearest;
 };
 
-static void take_in(const struct lwpr *m, int j, struct blend *blend)
+static void blend_in_field(const struct lwpr *m, int j, struct blend *blend)
 {
     const struct lwpr_field f = lwpr_field_at(m, j);
     const struct lwpr_rank *rank = &m->rank[(int)f.head->output];
@@ -65,8 +65,8 @@ static double variance_of(const struct lwpr *m, int output, const struct blend *
     return fmax((disagreement + blend->wv / blend->W) / activation, least_variance);
 }
 
-static void answer(const struct lwpr *m, int output, const struct blend *blend,
-                   struct learner_solution *solution)
+static void fill_in_output(const struct lwpr *m, int output, const struct blend *blend,
+                           struct learner_solution *solution)
 {
     double norm = m->p.norm_out[output];
     double mean = blend->wy / blend->W;
@@ -93,18 +93,18 @@ int lwpr_predict(struct lwpr *m, const double *z, struct learner_solution *solut
             continue;
         const struct lwpr_field f = lwpr_field_at(m, j);
         if (lwpr_pls_mature(m, &f) > 0)
-            take_in(m, j, &blend[(int)f.head->output]);
+            blend_in_field(m, j, &blend[(int)f.head->output]);
     }
     for (int o = 0; o < m->D; o++) {
         if (m->rank[o].first < 0)
             return 0;
         if (blend[o].members == 0)
-            take_in(m, m->rank[o].first, &blend[o]);
+            blend_in_field(m, m->rank[o].first, &blend[o]);
     }
     solution->members = 0;
     solution->principal = -1;
     solution->weight = 1.0;
     for (int o = 0; o < m->D; o++)
-        answer(m, o, &blend[o], solution);
+        fill_in_output(m, o, &blend[o], solution);
     return 1;
 }

@@ -12,15 +12,18 @@ _Static_assert(offsetof(struct settings, learner) == 0, "see LEARNER_OPTION_ROWS
     }
 
 static const struct option_row table[] = {
-    ROW("inputs", OPTION_INT, n_inputs, NULL, 1, LEARNER_MAX_INPUTS, NULL, "numbers in z"),
-    ROW("outputs", OPTION_INT, n_outputs, NULL, 1, LEARNER_MAX_OUTPUTS, NULL, "numbers in x"),
-    ROW("kind", OPTION_CHOICE, kind, "imle", 0, 0, "imle|null|lwpr", "learning algorithm"),
+    ROW("inputs", OPTION_INT, n_inputs, NULL, 1, LEARNER_MAX_INPUTS, NULL,
+        "number of inputs: entries of z that count"),
+    ROW("outputs", OPTION_INT, n_outputs, NULL, 1, LEARNER_MAX_OUTPUTS, NULL,
+        "number of outputs: entries of x that count"),
+    ROW("kind", OPTION_CHOICE, kind, "imle", 0, 0, "imle|lwpr",
+        "learning algorithm: imle = mixture of experts, lwpr = local regression"),
     ROW("model.directory", OPTION_TEXT, model_directory, "", 0, 0, NULL,
-        "where the model is kept as it is learned, and saved; empty: neither"),
+        "directory in which the model is kept and saved; empty = nothing is stored"),
     ROW("model.snapshot", OPTION_INT, model_snapshot, "500", 1, 1000000, NULL,
-        "samples in the journal after which a snapshot is made: bounds the time of a start"),
+        "samples in the journal after which a snapshot is made; bounds the time of a start"),
     ROW("model.keep", OPTION_INT, model_keep, "2", 1, 1000, NULL,
-        "snapshots on disk; with two or more, one that is damaged can be rebuilt"),
+        "number of snapshots kept on disk; with 2 or more, a damaged one can be rebuilt"),
     LEARNER_OPTION_ROWS,
     OPTION_END,
 };

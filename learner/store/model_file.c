@@ -1,6 +1,6 @@
 #include "learner/store/model_file.h"
 
-#include "learner/kind.h"
+#include "learner/base/hash.h"
 
 #include <errno.h>
 #include <fcntl.h>

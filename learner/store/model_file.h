@@ -31,7 +31,9 @@ uint64_t model_samples(const struct learner *learner);
 /* The learner's bytes, their number and hash. `model` must be large enough. */
 void model_capture(struct model_bytes *model, const struct learner *learner);
 
-/* Writes PATH.new and syncs it. Returns 0, or -1 with errno; PATH.new is then gone again. */
+/* Writes PATH.new and syncs it. Returns 0, or -1 with errno. After -1 the file is removed where a
+ * write or the sync failed; where opening or closing it failed, or removing it, a PATH.new may be
+ * left. It means nothing, and the next call writes over it. */
 int model_file_write_aside(const struct files *files, const char *path,
                            const struct model_bytes *model);
 

@@ -72,16 +72,25 @@ check_shell() { sources '*.sh' '*.bash' run .ci/run | xargs -r shellcheck -x; }
 # The loop thread: no recursion, no forbidden call, a bounded stack.
 check_loop() { .venv/bin/python tools/dev/loop_stack.py; }
 
+# Which folder includes which: no circle, and nothing from above.
+check_rooms() { .venv/bin/python tools/dev/include_graph.py "$@"; }
+
 case ${1:-} in
 '') ;;
 --fix) fix ;;
+--graph)
+    check_rooms --graph
+    exit
+    ;;
 *)
-    echo "lint: unknown option '$1'; only --fix, which formats in place, exists" >&2
+    echo "lint: unknown option '$1'; there are --fix, which formats in place, and --graph, which draws" \
+        "what includes what" >&2
     exit 2
     ;;
 esac
 check format check_format
 check size check_size
+check rooms check_rooms
 check python check_python
 check shell check_shell
 check cppcheck check_cppcheck

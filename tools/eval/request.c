@@ -18,7 +18,7 @@ static const char usage[] =
     "\n"
     "Teaches a learner the samples of CSV files, in order, and measures it on others.\n"
     "\n"
-    "  --learner KIND       imle, lwpr, or null, which learns nothing\n"
+    "  --learner KIND       imle or lwpr\n"
     "  --inputs d           numbers of the input in a row, 1 .. 16\n"
     "  --outputs D          numbers of the output after them, 1 .. 8\n"
     "  --config FILE        parameters, YAML; repeated: a later file over an earlier one. Without\n"
@@ -88,7 +88,7 @@ struct reading {
 static const struct {
     const char *name;
     enum learner_kind kind;
-} learners[] = {{"imle", LEARNER_IMLE}, {"null", LEARNER_NULL}, {"lwpr", LEARNER_LWPR}};
+} learners[] = {{"imle", LEARNER_IMLE}, {"lwpr", LEARNER_LWPR}};
 
 enum { N_LEARNERS = sizeof learners / sizeof learners[0] };
 

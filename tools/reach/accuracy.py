@@ -98,12 +98,12 @@ def run(options: argparse.Namespace) -> list[dict]:
 def parse(arguments: list[str] | None) -> argparse.Namespace:
     names = [study.name for study in studies(True)]
     parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
-    parser.add_argument("--draws", type=int, default=5, help="of every study; default 5")
-    parser.add_argument("--quick", action="store_true", help="a fifth of the samples")
+    parser.add_argument("--draws", type=int, default=5, help="draws of every study; default 5")
+    parser.add_argument("--quick", action="store_true", help="use a fifth of the samples")
     parser.add_argument("--only", nargs="+", choices=names, metavar="STUDY",
-                        help=f"of {', '.join(names)}")  # fmt: skip
+                        help=f"run only these studies, of {', '.join(names)}")  # fmt: skip
     parser.add_argument("--param", action="append", default=[], metavar="NAME=VALUE",
-                        help="a parameter of the learner, over what ships")  # fmt: skip
+                        help="set a parameter of the learner; may be repeated")  # fmt: skip
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
     options = parser.parse_args(arguments)
     if options.draws < 1:

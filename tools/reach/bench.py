@@ -90,7 +90,7 @@ def picture(rows: list[dict]) -> Figure:
 def main() -> int:
     parser = Parser(prog="./run bench", description=__doc__.splitlines()[0])
     add = parser.add_argument
-    add("--json", type=Path, help="write the rows here, too")
+    add("--json", type=Path, help="write the rows to this file, too")
     add("--out", type=Path, default=ROOT / "out/bench", help="folder of the results")
     add("--calls", type=int, default=4000, help="updates and predictions of each case")
     add("--only", default="", help="only cases whose label holds this, such as 'linear d=7'")

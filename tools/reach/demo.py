@@ -26,14 +26,16 @@ BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     parser = Parser(prog="./run demo", description=__doc__)
     add = parser.add_argument
-    add("--seed", type=int, default=1, help="decides the whole run; default %(default)s")
+    add("--seed", type=int, default=1,
+        help="random seed, which decides the whole run; default %(default)s")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/demo", help="folder of the results")
-    add("--samples", type=_count, default=150, help="training samples with each; default 150")
+    add("--samples", type=_count, default=150,
+        help="training samples with the hand and with the tool; default 150")  # fmt: skip
     add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
     add("--period", type=float, default=4.0, help="seconds for each target; default %(default)g")
     add("--experts", choices=("polynomial", *programs.LEARNERS), default="polynomial",
-        help="what an expert of the model is; lwpr: the rival's; default %(default)s")  # fmt: skip
-    add("--realtime", action="store_true", help="at the wall's pace instead of as fast as it can")
+        help="kind of experts, or lwpr for the rival learner; default %(default)s")  # fmt: skip
+    add("--realtime", action="store_true", help="run in real time instead of as fast as possible")
     add("--keep-images", action="store_true", help="log the cameras too (some 100 kB a pair)")
     return parser.parse_args(arguments)
 

@@ -154,11 +154,15 @@ def _write_images(writer, log: Path) -> None:
 
 def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser = Parser(prog="reach-export", description=__doc__)
-    parser.add_argument("log", type=Path, help="a log of lcm-logger's or a run's, run.lcmlog")
-    parser.add_argument("--csv", type=Path, metavar="DIR", help="a CSV file a channel")
-    parser.add_argument("--parquet", type=Path, metavar="DIR", help="a Parquet file a channel")
-    parser.add_argument("--mcap", type=Path, metavar="FILE", help="one file, such as for Foxglove")
-    parser.add_argument("--rrd", type=Path, metavar="FILE", help="one file, for Rerun's viewer")
+    parser.add_argument("log", type=Path, help="log of lcm-logger, or run.lcmlog of a run")
+    parser.add_argument("--csv", type=Path, metavar="DIR",
+                        help="write one CSV file for each channel to DIR")  # fmt: skip
+    parser.add_argument("--parquet", type=Path, metavar="DIR",
+                        help="write one Parquet file for each channel to DIR")  # fmt: skip
+    parser.add_argument("--mcap", type=Path, metavar="FILE",
+                        help="write one MCAP file, such as for Foxglove")  # fmt: skip
+    parser.add_argument("--rrd", type=Path, metavar="FILE",
+                        help="write one file for Rerun's viewer")  # fmt: skip
     parser.add_argument("--urdf", type=Path, metavar="FILE", help="the robot in it; default: one"
                         " of ours with the log's joints")  # fmt: skip
     options = parser.parse_args(arguments)

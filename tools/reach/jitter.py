@@ -184,8 +184,8 @@ def picture(runs: list[dict]) -> Figure:
 def parse() -> argparse.Namespace:
     parser = Parser(prog="./run jitter", description=__doc__.splitlines()[0])
     add = parser.add_argument
-    add("--minutes", type=float, default=10.0, help="of each of the two runs (default 10)")
-    add("--load", choices=LOADS, help="only this run")
+    add("--minutes", type=float, default=10.0, help="length of each of the two runs (default 10)")
+    add("--load", choices=LOADS, help="do only the run with this load")
     add("--out", type=Path, default=ROOT / "out/jitter", help="folder of the results")
     return parser.parse_args()
 

@@ -75,13 +75,16 @@ def show_log(log: Path, view) -> None:
 def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     parser = Parser(prog="./run live", description=__doc__)
     add = parser.add_argument
-    add("--out", type=Path, default=ROOT / "out/live", help="folder; default %(default)s")
-    add("--seed", type=int, default=1, help="of the simulated world; default %(default)s")
+    add("--out", type=Path, default=ROOT / "out/live",
+        help="folder of the run's files; default %(default)s")  # fmt: skip
+    add("--seed", type=int, default=1,
+        help="random seed of the simulated world; default %(default)s")  # fmt: skip
     add("--do", action="append", default=[], metavar="COMMAND",
-        help="reachctl's command to begin with, such as 'babble 50'; may be repeated")  # fmt: skip
-    add("--seconds", type=float, default=0, help="of the robot's time; default: for ever")
+        help="command of reachctl to begin with, such as 'babble 50'; may be repeated")  # fmt: skip
+    add("--seconds", type=float, default=0,
+        help="end after so many seconds of the robot's time; default: never")  # fmt: skip
     add("--save", type=Path, metavar="FILE", help="write FILE.rrd instead of opening a window")
-    add("--log", type=Path, help="show this log instead of a run; its images, if it has any")
+    add("--log", type=Path, help="show this log, with its images if it has any, instead of a run")
     return parser.parse_args(arguments)
 
 

@@ -57,7 +57,8 @@ class Recorder:
 def main() -> None:
     parser = Parser(prog="reach.recorder", description=__doc__)
     parser.add_argument("--url", required=True)
-    parser.add_argument("--channels", default=ALL_BUT_IMAGES, help="pattern; default %(default)s")
+    parser.add_argument("--channels", default=ALL_BUT_IMAGES,
+                        help="pattern of the channels to record; default %(default)s")  # fmt: skip
     parser.add_argument("log")
     options = parser.parse_args()
     recorder = Recorder(options.url, options.channels, options.log)

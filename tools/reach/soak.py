@@ -51,11 +51,11 @@ ROBOTS = {"kobian": Robot(tools=2, learn=15, probe=8), "icub": Robot(tools=3, le
 def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     parser = Parser(prog="./run soak", description=__doc__)
     add = parser.add_argument
-    add("minutes", type=_minutes, help="how long, by the wall's clock")
-    add("--seed", type=int, default=1, help="of every random choice; default %(default)s")
-    add("--robot", choices=tuple(ROBOTS), default="kobian", help="default %(default)s")
+    add("minutes", type=_minutes, help="length of the soak by the wall clock")
+    add("--seed", type=int, default=1, help="seed of every random choice; default %(default)s")
+    add("--robot", choices=tuple(ROBOTS), default="kobian", help="robot; default %(default)s")
     add("--kills", type=float, default=KILLS_AN_HOUR, metavar="N",
-        help="programs killed in an hour of robot time; default %(default)g")  # fmt: skip
+        help="programs killed per hour of robot time; default %(default)g")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/soak", help="folder of the results")
     return parser.parse_args(arguments)
 

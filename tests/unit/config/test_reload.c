@@ -30,7 +30,7 @@ START_TEST(test_what_was_built_on_may_not)
 {
     static const char *const refused[] = {
         "period=0.01",          "arm.max=[0, -5, 15, -5]", "safety.arm_velocity=70",
-        "learner.capacity=32",  "learner.kind=null",       "model.directory=/tmp",
+        "learner.capacity=32",  "learner.kind=lwpr",       "model.directory=/tmp",
         "task.scale_angle=9",   "head.min=[-30, -10]",     "eyes.pixels_per_radian=1000",
         "safety.state_hold=0.1"};
     char error[512], name[64];

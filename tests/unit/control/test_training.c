@@ -10,7 +10,6 @@ START_TEST(a_full_queue_drops_and_counts)
     struct arena *arena;
     char error[128];
 
-    config.kind = LEARNER_NULL;
     config.psi0[0] = config.sigma0[0] = 1;
     arena = arena_create(training_memory(3) + learner_memory(&config));
     learner = learner_create(&config, arena, error, sizeof error);

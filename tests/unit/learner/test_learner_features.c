@@ -17,7 +17,7 @@ static struct learner_config polynomial(int n_inputs, int degree)
     return config;
 }
 
-static struct feature_map *create(const struct learner_config *config, struct arena **arena)
+static struct feature_map *create_map(const struct learner_config *config, struct arena **arena)
 {
     *arena = arena_create(feature_map_memory(config));
     ck_assert_ptr_nonnull(*arena);
@@ -45,7 +45,7 @@ START_TEST(features_are_terms_of_the_gaussian_kernel)
 {
     struct learner_config config = polynomial(2, 6);
     struct arena *arena = NULL;
-    struct feature_map *map = create(&config, &arena);
+    struct feature_map *map = create_map(&config, &arena);
     const double u[2] = {0.3, -0.8};
     const double v[2] = {0.5, 0.4};
     double product = u[0] * v[0] + u[1] * v[1];
@@ -71,7 +71,7 @@ END_TEST
 static void compare_with_differences(const struct learner_config *config)
 {
     struct arena *arena = NULL;
-    struct feature_map *map = create(config, &arena);
+    struct feature_map *map = create_map(config, &arena);
     int d = config->n_inputs;
     double z[LEARNER_MAX_INPUTS];
     double shifted[LEARNER_MAX_INPUTS];

@@ -42,7 +42,7 @@ static struct learner_config cubic_config(void)
 }
 
 /* One of many branches, far from each other. */
-static void answer(const double *z, int branch, double *x)
+static void value_on_branch(const double *z, int branch, double *x)
 {
     for (int i = 0; i < OUTPUTS; i++)
         x[i] = sin(z[i] + 0.5 * z[i + 1]) + 2.0 * branch;
@@ -91,7 +91,7 @@ static struct cost live(struct learner *learner, int branch)
     for (int k = 0; k < CALLS; k++) {
         double z[INPUTS], x[OUTPUTS];
         draw(z);
-        answer(z, branch >= 0 ? branch : k % 5 - branch, x);
+        value_on_branch(z, branch >= 0 ? branch : k % 5 - branch, x);
         double start = thread_us();
         learner_update(learner, z, x);
         update[k] = thread_us() - start;
@@ -117,7 +117,7 @@ static double error_of(struct learner *learner, int branch)
         const double *z = queries[k];
         double x[OUTPUTS];
         double least = INFINITY;
-        answer(z, branch, x);
+        value_on_branch(z, branch, x);
         learner_predict(learner, z, &prediction);
         for (int s = 0; s < prediction.n_solutions; s++) {
             double square = 0.0;
@@ -149,7 +149,7 @@ static int fill(struct learner *learner)
         for (int k = 0, at = branches++; k < 1000; k++) {
             double z[INPUTS], x[OUTPUTS];
             draw(z);
-            answer(z, at, x);
+            value_on_branch(z, at, x);
             learner_update(learner, z, x);
         }
     return branches;

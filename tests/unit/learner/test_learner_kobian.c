@@ -71,7 +71,7 @@ static struct vector ball(const struct robot *robot, const double *q, bool tool)
 
 /* Head yaw and pitch in rad that look at the ball, and its disparity in px between eyes 90 mm apart
  * with 1200 px of focal length and zero disparity at 0.5 m. */
-static void look(const struct robot *robot, const double *q, bool tool, double *x)
+static void look_at_hand(const struct robot *robot, const double *q, bool tool, double *x)
 {
     struct vector v = ball(robot, q, tool);
     double height = 0.324 - v.z;
@@ -177,14 +177,15 @@ static void add_error(const double *truth, double *squares)
     }
 }
 
-static void measure(struct learner *learner, const struct robot *robot, struct result *result)
+static void measure_errors(struct learner *learner, const struct robot *robot,
+                           struct result *result)
 {
     double q[4], truth[3];
 
     for (int tool = 0; tool < 2; tool++)
         for (int n = 0; n < QUERIES; n++) {
             random_posture(q);
-            look(robot, q, tool, truth);
+            look_at_hand(robot, q, tool, truth);
             result->solutions[tool] +=
                 (double)learner_predict(learner, q, &prediction) / (QUERIES * SEEDS);
             add_error(truth, result->squares[tool]);
@@ -201,11 +202,11 @@ static void live(const struct learner_config *config, struct result *results)
 
     for (int n = 1, k = 0; n <= ALL; n++) {
         random_posture(q);
-        look(&robot, q, n > HAND, x);
+        look_at_hand(&robot, q, n > HAND, x);
         disturb(bias, x);
         learner_update(learner, q, x);
         if (n == moments[k])
-            measure(learner, &robot, &results[k++]);
+            measure_errors(learner, &robot, &results[k++]);
     }
     bed_clean();
 }
@@ -232,8 +233,8 @@ static void live_all(enum learner_features features, struct result *results)
     }
 }
 
-static void expect(const struct result *result, int tool, double angle, double disparity,
-                   double solutions)
+static void expect_errors(const struct result *result, int tool, double angle, double disparity,
+                          double solutions)
 {
     ck_assert_double_lt(result->squares[tool][0], angle);
     ck_assert_double_lt(result->squares[tool][1], angle);
@@ -247,10 +248,10 @@ START_TEST(cubic_experts_learn_hand_and_tool)
 
     bed_seed();
     live_all(LEARNER_POLYNOMIAL, results);
-    expect(&results[1], 0, 0.2, 1.5, 1.0);
-    expect(&results[4], 1, 1.0, 5.0, 2.0);
-    expect(&results[5], 0, 0.2, 1.5, 2.0);
-    expect(&results[5], 1, 0.2, 1.5, 2.0);
+    expect_errors(&results[1], 0, 0.2, 1.5, 1.0);
+    expect_errors(&results[4], 1, 1.0, 5.0, 2.0);
+    expect_errors(&results[5], 0, 0.2, 1.5, 2.0);
+    expect_errors(&results[5], 1, 0.2, 1.5, 2.0);
     for (int i = 0; i < 3; i++)
         ck_assert_double_lt(results[5].squares[0][i], 1.2 * results[1].squares[0][i]);
 }
@@ -262,8 +263,8 @@ START_TEST(linear_experts_learn_hand_and_tool)
 
     bed_seed();
     live_all(LEARNER_LINEAR, results);
-    expect(&results[5], 0, 1.0, 6.0, 2.0);
-    expect(&results[5], 1, 1.0, 6.0, 2.0);
+    expect_errors(&results[5], 0, 1.0, 6.0, 2.0);
+    expect_errors(&results[5], 1, 1.0, 6.0, 2.0);
 }
 END_TEST
 

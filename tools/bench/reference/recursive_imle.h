@@ -67,6 +67,7 @@ private:
     double outlier_input() const;
     double outlier_joint() const;
 
+    double answer_of(size_t j, const double *z);
     void answer_all(const double *z);
     double deviation(size_t j, const double *center) const;
     void move_center(size_t k, const double *probability);

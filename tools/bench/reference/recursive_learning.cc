@@ -1,7 +1,7 @@
 /* The recursive mixture: growth, E-step, M-step by rank-1 updates, shared priors. */
 #include <cmath>
 
-#include "recursive_imle.h"
+#include "tools/bench/reference/recursive_imle.h"
 #include "tools/bench/reference/textbook_chi2.h"
 
 namespace oracle

@@ -2,11 +2,44 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recursive_imle.h"
+#include "tools/bench/reference/recursive_imle.h"
 #include "tools/bench/reference/textbook_chi2.h"
 
 namespace oracle
 {
+
+/* Expert j's answer to the query; returns its t. */
+double RecursiveImle::answer_of(size_t j, const double *z)
+{
+    const Expert &e = experts_[j];
+    Answer &answer = answers_[j];
+    double *Nv = &precision_[j * d_], *Cv = &dgamma_[j * d_];
+    double q = 0, g = 0, dof, a;
+    for (size_t i = 0; i < d_; i++)
+        dz_[i] = z[i] - e.nu[i];
+    for (size_t i = 0; i < d_; i++) {
+        double n = 0, c = 0;
+        for (size_t k = 0; k < d_; k++) {
+            n += e.N_inverse[i * d_ + k] * dz_[k];
+            c += e.C_inverse[i * d_ + k] * dz_[k];
+        }
+        Nv[i] = sigma_divisor(e) * n;
+        Cv[i] = 2 * c;
+        q += Nv[i] * dz_[i];
+        g += c * dz_[i];
+    }
+    answer.q = q;
+    answer.gamma = 1 / e.S_h + g;
+    answer.t = std::exp(log_t(e, q, &dof, &a));
+    answer.kappa_factor = (dof + p_.d) / (a + q);
+    for (size_t i = 0; i < D_; i++) {
+        double x = e.mu[i];
+        for (size_t k = 0; k < d_; k++)
+            x += e.Lambda[i * d_ + k] * dz_[k];
+        xhat_[j * D_ + i] = x;
+    }
+    return answer.t;
+}
 
 /* Every expert's answer to the query. */
 void RecursiveImle::answer_all(const double *z)
@@ -17,36 +50,8 @@ void RecursiveImle::answer_all(const double *z)
     R_inverse_.resize(experts_.size() * D_);
     precision_.resize(experts_.size() * d_);
     dgamma_.resize(experts_.size() * d_);
-    for (size_t j = 0; j < experts_.size(); j++) {
-        const Expert &e = experts_[j];
-        Answer &answer = answers_[j];
-        double *Nv = &precision_[j * d_], *Cv = &dgamma_[j * d_];
-        double q = 0, g = 0, dof, a;
-        for (size_t i = 0; i < d_; i++)
-            dz_[i] = z[i] - e.nu[i];
-        for (size_t i = 0; i < d_; i++) {
-            double n = 0, c = 0;
-            for (size_t k = 0; k < d_; k++) {
-                n += e.N_inverse[i * d_ + k] * dz_[k];
-                c += e.C_inverse[i * d_ + k] * dz_[k];
-            }
-            Nv[i] = sigma_divisor(e) * n;
-            Cv[i] = 2 * c;
-            q += Nv[i] * dz_[i];
-            g += c * dz_[i];
-        }
-        answer.q = q;
-        answer.gamma = 1 / e.S_h + g;
-        answer.t = std::exp(log_t(e, q, &dof, &a));
-        answer.kappa_factor = (dof + p_.d) / (a + q);
-        for (size_t i = 0; i < D_; i++) {
-            double x = e.mu[i];
-            for (size_t k = 0; k < d_; k++)
-                x += e.Lambda[i * d_ + k] * dz_[k];
-            xhat_[j * D_ + i] = x;
-        }
-        W += answer.t;
-    }
+    for (size_t j = 0; j < experts_.size(); j++)
+        W += answer_of(j, z);
     for (size_t j = 0; j < experts_.size(); j++) {
         double phi = answers_[j].t / (answers_[j].gamma * answers_[j].t + W);
         for (size_t i = 0; i < D_; i++)

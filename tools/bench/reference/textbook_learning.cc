@@ -1,10 +1,7 @@
 /* The textbook mixture: E-step, M-step, growth, shared priors. */
-#include <unsupported/Eigen/SpecialFunctions>
-
 #include <cmath>
 
-#include "textbook_chi2.h"
-#include "textbook_imle.h"
+#include "tools/bench/reference/textbook_imle.h"
 
 namespace oracle
 {
@@ -12,36 +9,9 @@ namespace oracle
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double chi2_cdf(double dof, double x)
-{
-    return x > 0 ? Eigen::numext::igamma(0.5 * dof, 0.5 * x) : 0.0;
-}
-
-double chi2_quantile(double dof, double level)
-{
-    double low = 0, high = 1e4;
-    for (int i = 0; i < 200; i++) {
-        double middle = 0.5 * (low + high);
-        (chi2_cdf(dof, middle) < level ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
 TextbookImle::TextbookImle(const Parameters &parameters)
     : p_(parameters), sigma_bar_(parameters.sigma0), psi_bar_(parameters.psi0)
 {
-}
-
-double TextbookImle::sigma_divisor(const Expert &e) const
-{
-    return e.S_h + e.w_Sigma + p_.d + 1 + (p_.w_nu > 0 ? 1 : 0);
-}
-
-MatrixXd TextbookImle::inverse_C(const Expert &e) const
-{
-    MatrixXd C =
-        e.S_zz - e.S_z * e.S_z.transpose() / e.S_h + e.w_Lambda * MatrixXd::Identity(p_.d, p_.d);
-    return C.inverse();
 }
 
 TextbookImle::Expert TextbookImle::newborn(const VectorXd &z, const VectorXd &x) const
@@ -133,17 +103,6 @@ void TextbookImle::update_priors()
     for (int i = 0; i < p_.D; i++)
         psi_bar_(i) =
             (t + std::sqrt(t * t + p_.w_Psi * p_.w_psi * p_.psi0(i) * p(i))) / (p_.w_Psi * p(i));
-}
-
-double TextbookImle::outlier_input() const
-{
-    return std::exp(-0.5 * chi2_quantile(p_.d, 1 - p_.p0)) / std::sqrt(sigma_bar_.prod());
-}
-
-double TextbookImle::outlier_joint() const
-{
-    return std::exp(-0.5 * chi2_quantile(p_.d + p_.D, 1 - p_.p0)) /
-           std::sqrt(psi_bar_.prod() * sigma_bar_.prod());
 }
 
 double TextbookImle::joint_density(const Expert &e, const VectorXd &z, const VectorXd &x) const

@@ -1,35 +1,16 @@
 /* The textbook mixture: predictions, clusters, Jacobians. */
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "textbook_chi2.h"
-#include "textbook_imle.h"
+#include "tools/bench/reference/textbook_chi2.h"
+#include "tools/bench/reference/textbook_imle.h"
 
 namespace oracle
 {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-TextbookImle::Answer TextbookImle::answer(const Expert &e, const VectorXd &z) const
-{
-    Answer r;
-    MatrixXd precision = e.Sigma.inverse();
-    MatrixXd C_inverse = inverse_C(e);
-    VectorXd dz = z - e.nu;
-    VectorXd from_mean = z - e.S_z / e.S_h;
-    double dof = e.w_Sigma + e.S_h - p_.d + 1;
-    double a = (e.w_nu + e.S_h + 1) / (e.w_nu + e.S_h) * sigma_divisor(e);
-    double q = dz.dot(precision * dz);
-    r.t = std::sqrt(precision.determinant()) *
-          std::exp(std::lgamma(0.5 * (dof + p_.d)) - std::lgamma(0.5 * dof)) *
-          std::pow(2 / a, 0.5 * p_.d) * std::pow(1 + q / a, -0.5 * (dof + p_.d));
-    r.gamma = 1 / e.S_h + from_mean.dot(C_inverse * from_mean);
-    r.x = e.mu + e.Lambda * dz;
-    r.kappa = (dof + p_.d) / (a + q) * (precision * dz);
-    r.dgamma = 2 * C_inverse * from_mean;
-    return r;
-}
 
 std::vector<TextbookImle::Answer> TextbookImle::answers(const VectorXd &z) const
 {
@@ -190,9 +171,8 @@ std::vector<Solution> TextbookImle::predict(const VectorXd &z) const
 
 Solution TextbookImle::predict_single(const VectorXd &z) const
 {
-    std::vector<int> everyone;
-    for (int j = 0; j < experts(); j++)
-        everyone.push_back(j);
+    std::vector<int> everyone(experts_.size());
+    std::iota(everyone.begin(), everyone.end(), 0);
     return fuse(answers(z), everyone);
 }
 

@@ -34,16 +34,18 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     )  # fmt: skip
     add = parser.add_argument
     add("--only", type=_experiments, default=EXPERIMENTS, metavar="K3[,K4]",
-        help=f"experiments, of {','.join(EXPERIMENTS)}; default all")  # fmt: skip
-    add("--seeds", type=_count, metavar="N", help="runs of each; default 5, with --quick 1")
+        help=f"only these experiments, of {','.join(EXPERIMENTS)}; default all")  # fmt: skip
+    add("--seeds", type=_count, metavar="N",
+        help="number of seeds, each a run; default 5, with --quick 1")  # fmt: skip
     add("--learner", nargs="+", choices=LEARNER_NAMES, default=LEARNER_NAMES,
-        help="imle: what ships, linear: IMLE as published, lwpr; default all")  # fmt: skip
+        help="imle (as shipped), linear (IMLE as published), lwpr; default all")  # fmt: skip
     add("--quick", action="store_true", help="few samples and one seed: a smoke check")
     add("--any-version", action="store_true",
-        help="keep complete runs of other versions of the programs, too")  # fmt: skip
+        help="keep complete runs that other versions of the programs made")  # fmt: skip
     add("--jobs", type=_count, default=len(os.sched_getaffinity(0)), metavar="N",
-        help="runs side by side, on processors of their own; default one a processor")  # fmt: skip
-    add("--out", type=Path, default=ROOT / "out/paper", help="folder; default %(default)s")
+        help="runs at once, each on its own processor; default: one per processor")  # fmt: skip
+    add("--out", type=Path, default=ROOT / "out/paper",
+        help="folder of the results; default %(default)s")  # fmt: skip
     options = parser.parse_args(arguments)
     options.seeds = options.seeds or (1 if options.quick else 5)
     options.out = options.out.resolve()
