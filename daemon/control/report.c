@@ -1,5 +1,4 @@
 #include "daemon/control/tick_private.h"
-#include "learner/store/model_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -81,18 +80,25 @@ static void report_behaviour(const struct tick *tick, reach_status_t *status)
     status->skipped = behaviour->progress.skipped;
 }
 
+/* Samples that were handed to the model in its life, those that it dropped among them. */
+static int64_t samples_of(const struct learner_statistics *counts)
+{
+    return (int64_t)(counts->samples + counts->outliers + counts->full + counts->refused);
+}
+
 static void report_model(const struct tick *tick, reach_status_t *status)
 {
     const struct selection *selection = &tick->selection;
     const double *value = select_value(selection);
-    struct model_store_report store = model_store_report(tick->store);
+    const struct learner_statistics statistics = learner_get_statistics(tick->learner);
+    struct model_report model = tick->model.ops->report(tick->model.context);
 
     status->samples = tick->training.learned;
-    status->model_samples = (int64_t)model_samples(tick->learner);
-    status->samples_stored = store.stored;
-    status->storing = store.storing;
-    status->store_waits = store.waits;
-    status->experts = learner_get_statistics(tick->learner).experts;
+    status->model_samples = samples_of(&statistics);
+    status->samples_stored = model.stored;
+    status->storing = model.storing;
+    status->store_waits = model.waits;
+    status->experts = statistics.experts;
     status->solutions = selection->prediction.n_solutions;
     status->solution = selection->solution;
     status->contexts = tick->context.count;
@@ -129,7 +135,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
 static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
                          reach_trace_t *trace)
 {
-    struct model_store_moment moment = model_store_moment(tick->store);
+    struct model_moment moment = tick->model.ops->moment(tick->model.context);
 
     trace->utime = now;
     trace->seq = tick->seq;

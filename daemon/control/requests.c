@@ -23,6 +23,17 @@ static int8_t start_behaviour(struct tick *tick, const reach_request_t *request,
     return REACH_STATUS_T_ACCEPTED;
 }
 
+static bool begin_save(struct tick *tick, int number)
+{
+    return tick->model.ops->begin_save(tick->model.context, number);
+}
+
+/* The model must not change under a behaviour that steers by it. */
+static bool begin_load(struct tick *tick, int number)
+{
+    return may_start(tick) && tick->model.ops->begin_load(tick->model.context, number);
+}
+
 static int8_t answer(struct tick *tick, const reach_request_t *request, struct control *control)
 {
     if (!inputs_request_ok(tick->config, request))
@@ -38,29 +49,35 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
         tick->emergency_requested = true;
         return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_SAVE:
-        return model_store_begin_save(tick->store, request->count) ? REACH_STATUS_T_PENDING
-                                                                   : REACH_STATUS_T_REFUSED_STATE;
+        return begin_save(tick, request->count) ? REACH_STATUS_T_PENDING
+                                                : REACH_STATUS_T_REFUSED_STATE;
     case REACH_REQUEST_T_LOAD:
-        /* The model must not change under a behaviour that steers by it. */
-        tick->loading = may_start(tick) && model_store_begin_load(tick->store, request->count);
+        tick->loading = begin_load(tick, request->count);
         return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
         return start_behaviour(tick, request, control);
     }
 }
 
+/* A save or a load that is over answers the request that waits for it. */
+static void poll_model(struct tick *tick)
+{
+    enum model_result result = tick->model.ops->poll(tick->model.context, &tick->learner);
+
+    if (result == MODEL_NOTHING)
+        return;
+    if (tick->request_result == REACH_STATUS_T_PENDING)
+        tick->request_result =
+            result == MODEL_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
+    if (result == MODEL_DONE && tick->loading)
+        context_init(&tick->context); /* its experts are others */
+    tick->loading = false;
+}
+
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
                         struct control *control)
 {
-    enum model_store_result stored = model_store_poll(tick->store, &tick->learner);
-
-    if (stored != MODEL_STORE_NOTHING && tick->request_result == REACH_STATUS_T_PENDING)
-        tick->request_result =
-            stored == MODEL_STORE_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
-    if (stored == MODEL_STORE_DONE && tick->loading)
-        context_init(&tick->context); /* its experts are others */
-    if (stored != MODEL_STORE_NOTHING)
-        tick->loading = false;
+    poll_model(tick);
     tick->request_seq_now = 0;
     for (int i = 0; i < inputs->n_requests; i++) {
         const reach_request_t *request = &inputs->request[i];

@@ -23,27 +23,15 @@ size_t tick_memory(const struct config *config)
     struct learner_config learner = config_learner(config);
     size_t learner_bytes = learner_memory(&learner);
 
-    return arena_footprint(sizeof(struct tick)) + learner_bytes + model_store_memory() +
+    return arena_footprint(sizeof(struct tick)) + learner_bytes +
            training_memory(config->learner_queue);
 }
 
-struct model_store_settings tick_store_settings(const struct config *config)
-{
-    return (struct model_store_settings){
-        .directory = config->model_directory,
-        .automatic = config->model_automatic,
-        .snapshot_samples = config->model_snapshot,
-        .sync_us = (int64_t)(config->model_sync * 1e6),
-        .keep = config->model_keep,
-        .learner = config_learner(config),
-    };
-}
-
-struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+struct tick *tick_create(const struct tick_settings *settings, struct arena *arena, char *error,
                          size_t error_size)
 {
+    const struct config *config = settings->config;
     struct learner_config learner = config_learner(config);
-    const struct model_store_settings settings = tick_store_settings(config);
     struct tick *tick = arena_alloc(arena, sizeof *tick);
 
     if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
@@ -51,11 +39,9 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
         return NULL;
     }
     tick->config = config;
+    tick->model = settings->model;
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
-        return NULL;
-    tick->store = model_store_create(&settings, arena, error, error_size);
-    if (!tick->store)
         return NULL;
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
@@ -66,32 +52,25 @@ struct tick *tick_create(const struct config *config, struct arena *arena, char 
     return tick;
 }
 
-struct model_store *tick_model_store(struct tick *tick)
+struct learner *tick_learner(struct tick *tick)
 {
-    return tick->store;
-}
-
-int tick_open_model(struct tick *tick, char *error, size_t error_size)
-{
-    return model_store_open(tick->store, tick->learner, error, error_size);
-}
-
-void tick_take_recorded_model(struct tick *tick)
-{
-    model_store_poll(tick->store, &tick->learner);
+    return tick->learner;
 }
 
 bool tick_awaits_store(const struct tick *tick)
 {
-    return model_store_works(tick->store) ||
-           (training_oldest(&tick->training) && model_store_full(tick->store));
+    const struct model_port *model = &tick->model;
+
+    return model->ops->works(model->context) ||
+           (training_oldest(&tick->training) && model->ops->full(model->context));
 }
 
 bool tick_learn(struct tick *tick)
 {
     const struct training_sample *sample = training_oldest(&tick->training);
+    const struct model_port *model = &tick->model;
 
-    if (!sample || !model_store_note(tick->store, sample->z, sample->x))
+    if (!sample || !model->ops->note(model->context, sample->z, sample->x))
         return false;
     training_learn_one(&tick->training, tick->learner);
     tick->learned_now++;

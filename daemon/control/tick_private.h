@@ -17,7 +17,7 @@
 struct tick {
     const struct config *config;
     struct learner *learner;
-    struct model_store *store;
+    struct model_port model;
     struct training training;
     struct history history;
     struct sight sight;

@@ -19,8 +19,11 @@ struct replay *replay_create(const struct replay_settings *settings)
 {
     struct replay *replay = calloc(1, sizeof *replay);
 
-    if (replay)
-        replay->settings = *settings;
+    if (!replay)
+        return NULL;
+    replay->settings = *settings;
+    replay->store.paths = settings->models;
+    replay->store.n_paths = settings->n_models;
     return replay;
 }
 
@@ -29,7 +32,7 @@ void replay_destroy(struct replay *replay)
     if (!replay)
         return;
     arena_destroy(replay->arena);
-    arena_destroy(replay->spare);
+    recorded_store_close(&replay->store);
     free(replay);
 }
 

@@ -6,9 +6,9 @@
 
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
+#include "daemon/replay/recorded_store.h"
 #include "daemon/replay/recording.h"
 #include "daemon/replay/replay.h"
-#include "learner/store/model_file.h"
 
 enum { REPLAY_CONFIGS = 64, REPLAY_REASON = 400 };
 
@@ -24,11 +24,8 @@ struct replay {
     struct tick *tick;       /* NULL = none has begun */
     struct config config[2]; /* used in turn, so that the tick can go over from one to the other */
     const struct config *used;
-    struct arena *spare; /* of the learner that models are read into, once one is needed */
-    struct model_bytes model;
-    struct model_store_recorded store;
-    uint64_t model_hash; /* of what the learner was given whole */
-    int64_t seq;         /* of the newest tick */
+    struct recorded_store store;
+    int64_t seq; /* of the newest tick */
 
     /* The tick at hand. */
     int64_t position; /* of its trace */

@@ -111,11 +111,6 @@ static void describe(const struct model_store *store, const struct recovery *rec
                  (unsigned long long)recovery->replayed);
 }
 
-void model_store_replay(struct model_store *store, struct model_store_recorded *recorded)
-{
-    store->recorded = recorded;
-}
-
 int model_store_open(struct model_store *store, struct learner *learner, char *error,
                      size_t error_size)
 {
@@ -248,26 +243,8 @@ static enum model_store_result take_result(struct model_store *store, struct lea
     }
 }
 
-static void take_recorded(struct model_store *store, struct learner **learner)
-{
-    struct model_store_recorded *recorded = store->recorded;
-    struct learner *old = *learner;
-
-    store->moment = recorded->moment;
-    store->ready = recorded->moment.ready;
-    if (!recorded->take)
-        return;
-    *learner = recorded->learner;
-    recorded->learner = old;
-    recorded->take = false;
-}
-
 enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
 {
-    if (store->recorded) {
-        take_recorded(store, learner);
-        return store->moment.result;
-    }
     store->moment.result = take_result(store, learner);
     store->ready = has_directory(store) && model_store_stage(store) == FREE;
     store->moment.ready = store->ready;

@@ -51,11 +51,12 @@ struct config fixture_learner_config(const char *learner)
 
 struct tick *fixture_tick(const struct config *config, struct arena **arena)
 {
+    const struct tick_settings settings = {.config = config, .model = model_port_none()};
     char error[256] = "";
     struct tick *tick;
 
     *arena = arena_create(tick_memory(config));
-    tick = tick_create(config, *arena, error, sizeof error);
+    tick = tick_create(&settings, *arena, error, sizeof error);
     ck_assert_msg(tick != NULL, "%s", error);
     return tick;
 }

@@ -22,7 +22,7 @@ struct config fixture_learner_config(const char *learner);
 /* A robot's file of etc with another over it. */
 struct config fixture_overlaid_config(const char *robot, const char *overlay);
 
-/* A control step that knows nothing yet, in an arena that the test destroys. */
+/* A control step that knows nothing yet and keeps nothing, in an arena that the test destroys. */
 struct tick *fixture_tick(const struct config *config, struct arena **arena);
 
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */

@@ -41,13 +41,11 @@ static void begin(void)
     const struct replay_settings settings = {.verify = true};
     static reach_config_t message;
     static unsigned char bytes[sizeof message + 8];
-    char error[256];
 
     config = fixture_config(overrides, 3);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
+    tick = fixture_tick(&config, &arena);
     replay = replay_create(&settings);
-    ck_assert(tick && replay);
+    ck_assert_ptr_nonnull(replay);
     fake_robot_init(&robot, &config);
     outgoing_init(&out, NULL, "");
     config_message(&config, &message);
