@@ -24,7 +24,7 @@ size_t tick_memory(const struct config *config)
     size_t learner_bytes = learner_memory(&learner);
 
     return arena_footprint(sizeof(struct tick)) + learner_bytes +
-           training_memory(config->learner_queue);
+           sample_queue_memory(config->learner_queue);
 }
 
 struct tick *tick_create(const struct tick_settings *settings, struct arena *arena, char *error,
@@ -34,7 +34,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     struct learner_config learner = config_learner(config);
     struct tick *tick = arena_alloc(arena, sizeof *tick);
 
-    if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
+    if (!tick || sample_queue_init(&tick->queue, config->learner_queue, arena)) {
         snprintf(error, error_size, "out of memory");
         return NULL;
     }
@@ -45,7 +45,8 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
         return NULL;
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
-    select_init(&tick->selection, config_arm_joints(config), SPACE_DIMENSIONS, config->space.scale);
+    estimate_init(&tick->estimate, config_arm_joints(config), SPACE_DIMENSIONS,
+                  config->space.scale);
     context_init(&tick->context);
     gaze_init(&tick->gaze, config);
     safety_init(&tick->safety, config);
@@ -62,17 +63,17 @@ bool tick_awaits_store(const struct tick *tick)
     const struct model_port *model = &tick->model;
 
     return model->ops->works(model->context) ||
-           (training_oldest(&tick->training) && model->ops->full(model->context));
+           (sample_queue_oldest(&tick->queue) && model->ops->full(model->context));
 }
 
 bool tick_learn(struct tick *tick)
 {
-    const struct training_sample *sample = training_oldest(&tick->training);
+    const struct queued_sample *sample = sample_queue_oldest(&tick->queue);
     const struct model_port *model = &tick->model;
 
     if (!sample || !model->ops->note(model->context, sample->z, sample->x))
         return false;
-    training_learn_one(&tick->training, tick->learner);
+    sample_queue_learn_one(&tick->queue, tick->learner);
     tick->learned_now++;
     return true;
 }
@@ -83,7 +84,7 @@ static void begin_anew(struct tick *tick)
     history_init(&tick->history, config_joints(tick->config));
     sight_init(&tick->sight, tick->config);
     gaze_init(&tick->gaze, tick->config);
-    tick->selection.moved_from = false;
+    tick->estimate.moved_from = false;
 }
 
 /* Overtaken on its way by a newer one, or seen before. A robot that starts anew begins with
@@ -151,13 +152,13 @@ static void measure(struct tick *tick)
 static void sense(struct tick *tick)
 {
     if (tick->state_seq_now) {
-        select_integrate(&tick->selection, tick->q);
+        estimate_integrate(&tick->estimate, tick->q);
         if (tick->sight.new_frame && !tick->config->space.fixates)
             measure(tick);
-        select_solution(&tick->selection, tick->learner, tick->q);
-        context_follow(&tick->context, &tick->selection);
+        estimate_choose(&tick->estimate, tick->learner, tick->q);
+        context_follow(&tick->context, &tick->estimate);
     }
-    sight_carry(&tick->sight, tick->q, select_jacobian(&tick->selection));
+    sight_carry(&tick->sight, tick->q, estimate_jacobian(&tick->estimate));
 }
 
 static uint32_t conditions(const struct tick *tick, const struct tick_inputs *inputs)
@@ -247,7 +248,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         .q = tick->q,
         .previous = tick->safety.previous,
         .sight = &tick->sight,
-        .selection = &tick->selection,
+        .estimate = &tick->estimate,
         .gaze = &tick->gaze,
         .tried = &tick->tried,
     };

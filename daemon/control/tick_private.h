@@ -18,10 +18,10 @@ struct tick {
     const struct config *config;
     struct learner *learner;
     struct model_port model;
-    struct training training;
+    struct sample_queue queue;
     struct history history;
     struct sight sight;
-    struct selection selection;
+    struct estimate estimate;
     struct context context;
     struct gaze gaze;
     struct tried tried;

@@ -31,7 +31,7 @@ struct control {
     const double *q;        /* all joints, arm first, rad */
     const double *previous; /* velocities commanded in the tick before, rad/s */
     const struct sight *sight;
-    struct selection *selection;
+    struct estimate *estimate;
     struct gaze *gaze;
     struct tried *tried;
 

@@ -67,7 +67,7 @@ static void widen(struct explore *explore, const double *x)
 static void compare(struct explore *explore, const struct control *control, const struct pair *pair)
 {
     const struct config *config = control->config;
-    const double *jacobian = select_jacobian(control->selection);
+    const double *jacobian = estimate_jacobian(control->estimate);
     int n = config_arm_joints(config);
     double moved[SPACE_DIMENSIONS], missed[SPACE_DIMENSIONS], most;
 

@@ -59,7 +59,7 @@ void control_task_velocity_by(struct control *control, const double *x_velocity,
                               const double *posture, double gain)
 {
     const struct config *config = control->config;
-    const double *jacobian = select_jacobian(control->selection);
+    const double *jacobian = estimate_jacobian(control->estimate);
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
         .n_outputs = SPACE_DIMENSIONS,

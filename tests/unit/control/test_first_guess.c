@@ -35,7 +35,7 @@ static void wanted(const struct control *control, const double *target, double *
         error[row] = target[row] - control->sight->carried[row];
     space_to_task(&control->config->space, error, x);
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        x[row] += select_value(control->selection)[row];
+        x[row] += estimate_value(control->estimate)[row];
 }
 
 /* The nearest of the joints that the model knows for the target, within their limits. */
