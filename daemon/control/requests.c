@@ -10,16 +10,22 @@ static bool may_start(const struct tick *tick)
            !tick->behaviour.ops;
 }
 
-static int8_t start_behaviour(struct tick *tick, const reach_request_t *request,
-                              struct control *control)
+static int8_t start_behaviour(struct tick *tick, const struct behaviour_ops *ops,
+                              const reach_request_t *request, const struct senses *senses,
+                              struct wants *wants)
 {
+    struct behaviour *behaviour = &tick->behaviour;
+
+    if (!ops->accepts(tick->config, request))
+        return REACH_STATUS_T_REFUSED_VALUE;
     if (!may_start(tick))
         return REACH_STATUS_T_REFUSED_STATE;
-    memset(&tick->behaviour, 0, sizeof tick->behaviour);
-    tick->behaviour.ops = behaviour_for_request(request->kind);
-    tick->behaviour.request_seq = request->seq;
-    tick->behaviour.learn = request->learn != 0;
-    tick->behaviour.ops->start(&tick->behaviour, request, control);
+    behaviour->ops = ops;
+    behaviour->request_seq = request->seq;
+    behaviour->learn = request->learn != 0;
+    behaviour->progress = (struct progress){0};
+    memset(behaviour->state, 0, ops->state_size);
+    ops->start(behaviour, request, senses, wants);
     return REACH_STATUS_T_ACCEPTED;
 }
 
@@ -34,9 +40,10 @@ static bool begin_load(struct tick *tick, int number)
     return may_start(tick) && tick->model.ops->begin_load(tick->model.context, number);
 }
 
-static int8_t answer(struct tick *tick, const reach_request_t *request, struct control *control)
+/* What is asked of the daemon itself. */
+static int8_t serve(struct tick *tick, const reach_request_t *request)
 {
-    if (!inputs_request_ok(tick->config, request))
+    if (!inputs_request_ok(request))
         return REACH_STATUS_T_REFUSED_VALUE;
     switch (request->kind) {
     case REACH_REQUEST_T_STOP:
@@ -55,8 +62,17 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
         tick->loading = begin_load(tick, request->count);
         return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
-        return start_behaviour(tick, request, control);
+        return REACH_STATUS_T_REFUSED_VALUE;
     }
+}
+
+/* Returns a request_result of status_t. */
+static int8_t answer_request(struct tick *tick, const reach_request_t *request,
+                             const struct senses *senses, struct wants *wants)
+{
+    const struct behaviour_ops *ops = behaviour_find(tick->behaviours, request->kind);
+
+    return ops ? start_behaviour(tick, ops, request, senses, wants) : serve(tick, request);
 }
 
 /* A save or a load that is over answers the request that waits for it. */
@@ -75,7 +91,7 @@ static void poll_model(struct tick *tick)
 }
 
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
-                        struct control *control)
+                        const struct senses *senses, struct wants *wants)
 {
     poll_model(tick);
     tick->request_seq_now = 0;
@@ -84,7 +100,7 @@ void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
         if (request->seq == tick->request_seq)
             continue;
         tick->request_seq = tick->request_seq_now = request->seq;
-        tick->request_result = answer(tick, request, control);
+        tick->request_result = answer_request(tick, request, senses, wants);
         if (tick->request_result == REACH_STATUS_T_REFUSED_VALUE)
             tick->bad_inputs++;
     }

@@ -40,6 +40,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     }
     tick->config = config;
     tick->model = settings->model;
+    tick->behaviours = settings->behaviours ? settings->behaviours : behaviour_table;
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
         return NULL;
@@ -199,7 +200,7 @@ static void supervise(struct tick *tick, const struct tick_inputs *inputs)
 
 /* What the behaviour wants, shaped; rest when none runs. What the supervisor stops is stopped by
  * the gate alone, as fast as the robot may. */
-static void behave(struct tick *tick, struct control *control)
+static void behave(struct tick *tick, const struct senses *senses, struct wants *wants)
 {
     const struct config *config = tick->config;
     int n_arm = config_arm_joints(config);
@@ -207,16 +208,16 @@ static void behave(struct tick *tick, struct control *control)
     if (tick->state != SUPERVISOR_ACTIVE && tick->state != SUPERVISOR_IDLE)
         return;
     if (tick->state == SUPERVISOR_ACTIVE && tick->behaviour.ops &&
-        !tick->behaviour.ops->step(&tick->behaviour, control)) {
+        !tick->behaviour.ops->step(&tick->behaviour, senses, wants)) {
         tick->behaviour.ops = NULL;
-        memset(control->velocity, 0, sizeof control->velocity);
+        memset(wants->velocity, 0, sizeof wants->velocity);
     }
-    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, control->velocity);
+    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, wants->velocity);
     motion_shape(config, n_arm, config_head_joints(config), tick->q, tick->safety.previous,
-                 control->velocity);
+                 wants->velocity);
 }
 
-static void command(struct tick *tick, const struct control *control, int64_t now,
+static void command(struct tick *tick, const struct wants *wants, int64_t now,
                     struct tick_outputs *outputs)
 {
     reach_robot_command_t *command = &outputs->command;
@@ -226,7 +227,7 @@ static void command(struct tick *tick, const struct control *control, int64_t no
                                        .seq = tick->seq,
                                        .state_seq = tick->state_seq,
                                        .n_joints = config_joints(tick->config)};
-    memcpy(command->velocity, control->velocity, sizeof command->velocity);
+    memcpy(command->velocity, wants->velocity, sizeof command->velocity);
     safety_gate(&tick->safety, tick->q, command->velocity);
 }
 
@@ -242,16 +243,15 @@ static void take_config(struct tick *tick, const struct config *config)
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs)
 {
-    struct control control = {
+    const struct senses senses = {
         .config = inputs->config ? inputs->config : tick->config,
         .now = now,
         .q = tick->q,
         .previous = tick->safety.previous,
         .sight = &tick->sight,
         .estimate = &tick->estimate,
-        .gaze = &tick->gaze,
-        .tried = &tick->tried,
     };
+    struct wants wants = {.gaze = &tick->gaze, .tried = &tick->tried};
 
     if (inputs->config)
         take_config(tick, inputs->config);
@@ -269,12 +269,12 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
     take_state(tick, inputs);
     take_observations(tick, inputs);
     sense(tick);
-    tick_take_requests(tick, inputs, &control);
+    tick_take_requests(tick, inputs, &senses, &wants);
     supervise(tick, inputs);
-    behave(tick, &control);
-    if (control.has_pair)
-        tick_take_pair(tick, &control.pair, outputs);
-    tick->has_target = control.has_target;
-    memcpy(tick->target, control.target, sizeof tick->target);
-    command(tick, &control, now, outputs);
+    behave(tick, &senses, &wants);
+    if (wants.has_pair)
+        tick_take_pair(tick, &wants.pair, outputs);
+    tick->has_target = wants.has_target;
+    memcpy(tick->target, wants.target, sizeof tick->target);
+    command(tick, &wants, now, outputs);
 }

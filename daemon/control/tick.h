@@ -53,9 +53,13 @@ struct tick_outputs {
 
 struct tick;
 
+struct behaviour_ops;
+
 struct tick_settings {
     const struct config *config; /* kept, not copied */
     struct model_port model;     /* who keeps what is learned; stays the caller's */
+    /* What can be asked for; ends with NULL. NULL = behaviour_table (behaviours/table.h). */
+    const struct behaviour_ops *const *behaviours;
 };
 
 /* Bytes that tick_create takes from an arena. */

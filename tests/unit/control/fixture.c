@@ -49,16 +49,22 @@ struct config fixture_learner_config(const char *learner)
     return fixture_overlaid_config("kobian.yaml", learner);
 }
 
-struct tick *fixture_tick(const struct config *config, struct arena **arena)
+struct tick *fixture_tick_of(const struct tick_settings *settings, struct arena **arena)
 {
-    const struct tick_settings settings = {.config = config, .model = model_port_none()};
     char error[256] = "";
     struct tick *tick;
 
-    *arena = arena_create(tick_memory(config));
-    tick = tick_create(&settings, *arena, error, sizeof error);
+    *arena = arena_create(tick_memory(settings->config));
+    tick = tick_create(settings, *arena, error, sizeof error);
     ck_assert_msg(tick != NULL, "%s", error);
     return tick;
+}
+
+struct tick *fixture_tick(const struct config *config, struct arena **arena)
+{
+    const struct tick_settings settings = {.config = config, .model = model_port_none()};
+
+    return fixture_tick_of(&settings, arena);
 }
 
 struct random_state fixture_random(const char *test)

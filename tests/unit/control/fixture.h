@@ -9,6 +9,7 @@
 
 struct arena;
 struct tick;
+struct tick_settings;
 
 /* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
 struct config fixture_config(const char *const *overrides, int n_overrides);
@@ -24,6 +25,9 @@ struct config fixture_overlaid_config(const char *robot, const char *overlay);
 
 /* A control step that knows nothing yet and keeps nothing, in an arena that the test destroys. */
 struct tick *fixture_tick(const struct config *config, struct arena **arena);
+
+/* Likewise, as the settings say. */
+struct tick *fixture_tick_of(const struct tick_settings *settings, struct arena **arena);
 
 /* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
 struct random_state fixture_random(const char *test);
