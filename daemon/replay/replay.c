@@ -5,15 +5,9 @@
 #include "daemon/control/trace.h"
 #include "daemon/replay/replay_private.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *const replay_channels[REPLAY_CHANNELS] = {
-    "ROBOT_STATE",  "MARKER",       "END_EFFECTOR", "REACH_REQUEST", "ROBOT_COMMAND",
-    "REACH_SAMPLE", "REACH_STATUS", "REACH_TRACE",  "REACH_CONFIG",
-};
 
 struct replay *replay_create(const struct replay_settings *settings)
 {
@@ -34,42 +28,6 @@ void replay_destroy(struct replay *replay)
     arena_destroy(replay->arena);
     recorded_store_close(&replay->store);
     free(replay);
-}
-
-const struct replay_report *replay_report(const struct replay *replay)
-{
-    return &replay->report;
-}
-
-int replay_fail(const struct replay *replay, char *error, size_t error_size, const char *format,
-                ...)
-{
-    char what[REPLAY_REASON];
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    if (replay->settings.lossy) /* the bus has no places */
-        snprintf(error, error_size, "tick %lld: %s", (long long)replay->trace.seq, what);
-    else
-        snprintf(error, error_size, "byte %lld: tick %lld: %s", (long long)replay->position,
-                 (long long)replay->trace.seq, what);
-    return -1;
-}
-
-int replay_miss(struct replay *replay, enum replay_channel channel, int64_t first, int64_t n,
-                const char *what, char *error, size_t error_size)
-{
-    struct replay_lost *lost = &replay->report.lost[channel];
-
-    if (!replay->settings.lossy)
-        return replay_fail(replay, error, error_size, "%s %s %lld is not in the log", what,
-                           replay_channels[channel], (long long)first);
-    if (lost->n == 0)
-        lost->first = first;
-    lost->n += n;
-    return 0;
 }
 
 /* The message that the tick was given. One that is there with other bytes was altered. Returns 1

@@ -1,6 +1,6 @@
-/* The replay's state, for the files that make it up: replay.c (messages in, ticks out),
- * replay/run.c (the beginning of a run: configuration and model), verify.c (what ticks
- * sent). */
+/* The replay's state, for the files that make it up: replay.c (messages in, ticks out), which calls
+ * run.c (the beginning of a run: configuration and model) and verify.c (what ticks sent); and
+ * report.c (what went wrong), which all of them call. */
 #ifndef REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 #define REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 
