@@ -141,7 +141,7 @@ static void take_observations(struct tick *tick, const struct tick_inputs *input
 }
 
 /* The output is measured, wherever the end-effector is: the estimate of eq. 14 starts from it. */
-static void measure(struct tick *tick)
+static void anchor_to_measured(struct tick *tick)
 {
     struct pair pair;
 
@@ -155,7 +155,7 @@ static void sense(struct tick *tick)
     if (tick->state_seq_now) {
         estimate_integrate(&tick->estimate, tick->q);
         if (tick->sight.new_frame && !tick->config->space.fixates)
-            measure(tick);
+            anchor_to_measured(tick);
         estimate_choose(&tick->estimate, tick->learner, tick->q);
         context_follow(&tick->context, &tick->estimate);
     }
@@ -217,8 +217,8 @@ static void behave(struct tick *tick, const struct senses *senses, struct wants 
                  wants->velocity);
 }
 
-static void command(struct tick *tick, const struct wants *wants, int64_t now,
-                    struct tick_outputs *outputs)
+static void fill_command(struct tick *tick, const struct wants *wants, int64_t now,
+                         struct tick_outputs *outputs)
 {
     reach_robot_command_t *command = &outputs->command;
 
@@ -276,5 +276,5 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         tick_take_pair(tick, &wants.pair, outputs);
     tick->has_target = wants.has_target;
     memcpy(tick->target, wants.target, sizeof tick->target);
-    command(tick, &wants, now, outputs);
+    fill_command(tick, &wants, now, outputs);
 }

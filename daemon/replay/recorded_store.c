@@ -91,7 +91,7 @@ static bool is_never(const void *context)
 }
 
 /* One a tick, as the store that was recorded. */
-static bool begin(void *context, int number)
+static bool begin_request(void *context, int number)
 {
     struct recorded_store *store = context;
     bool ready = store->ready;
@@ -133,8 +133,8 @@ static const struct model_port_ops ops = {
     .note = note,
     .full = is_never,
     .works = is_never,
-    .begin_save = begin,
-    .begin_load = begin,
+    .begin_save = begin_request,
+    .begin_load = begin_request,
     .poll = poll_recorded,
     .moment = moment,
     .report = report_nothing,

@@ -32,8 +32,9 @@ void replay_destroy(struct replay *replay)
 
 /* The message that the tick was given. One that is there with other bytes was altered. Returns 1
  * with it, 0 when it is missing and that is allowed, else -1. */
-static int find(struct replay *replay, enum replay_channel channel, int64_t seq, int32_t checksum,
-                const struct recorded **found, char *error, size_t error_size)
+static int find_given(struct replay *replay, enum replay_channel channel, int64_t seq,
+                      int32_t checksum, const struct recorded **found, char *error,
+                      size_t error_size)
 {
     const struct recording *recording = &replay->recording[channel];
 
@@ -68,8 +69,8 @@ static int give_state(struct replay *replay, char *error, size_t error_size)
 
     if (!trace->has_state)
         return 0;
-    result = find(replay, REPLAY_STATE, trace->given_state, trace->state_checksum, &found, error,
-                  error_size);
+    result = find_given(replay, REPLAY_STATE, trace->given_state, trace->state_checksum, &found,
+                        error, error_size);
     if (result <= 0)
         return result;
     if (!incoming_state(found->bytes, found->size, &inputs->state))
@@ -88,8 +89,8 @@ static int give_observations(struct replay *replay, char *error, size_t error_si
 
     for (int i = 0; i < trace->n_observations; i++) {
         const struct recorded *found;
-        int result = find(replay, channel, trace->observation[i], trace->observation_checksum[i],
-                          &found, error, error_size);
+        int result = find_given(replay, channel, trace->observation[i],
+                                trace->observation_checksum[i], &found, error, error_size);
         if (result < 0)
             return -1;
         if (result == 0)
@@ -108,8 +109,8 @@ static int give_requests(struct replay *replay, char *error, size_t error_size)
 
     for (int i = 0; i < trace->n_requests; i++) {
         const struct recorded *found;
-        int result = find(replay, REPLAY_REQUEST, trace->request[i], trace->request_checksum[i],
-                          &found, error, error_size);
+        int result = find_given(replay, REPLAY_REQUEST, trace->request[i],
+                                trace->request_checksum[i], &found, error, error_size);
         if (result < 0)
             return -1;
         if (result == 0)

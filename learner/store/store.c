@@ -108,7 +108,7 @@ static void describe(const struct model_store *store, const struct recovery *rec
                  store->settings.directory, (unsigned long long)store->model.samples,
                  (unsigned long long)store->model.hash,
                  learner_get_statistics(store->shadow).experts, (long long)recovery->generation,
-                 (unsigned long long)recovery->replayed);
+                 (unsigned long long)recovery->from_journals);
 }
 
 int model_store_open(struct model_store *store, struct learner *learner, char *error,
@@ -193,7 +193,7 @@ bool model_store_works(const struct model_store *store)
     return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED;
 }
 
-static bool begin(struct model_store *store, int number)
+static bool begin_request(struct model_store *store, int number)
 {
     if (!store->ready)
         return false;
@@ -204,7 +204,7 @@ static bool begin(struct model_store *store, int number)
 
 bool model_store_begin_save(struct model_store *store, int number)
 {
-    if (!begin(store, number))
+    if (!begin_request(store, number))
         return false;
     store->save_at = store->number;
     model_store_set_stage(store, SAVE_ASKED);
@@ -213,7 +213,7 @@ bool model_store_begin_save(struct model_store *store, int number)
 
 bool model_store_begin_load(struct model_store *store, int number)
 {
-    if (!begin(store, number))
+    if (!begin_request(store, number))
         return false;
     model_store_set_stage(store, LOAD_ASKED);
     return true;

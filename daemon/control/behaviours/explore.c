@@ -96,7 +96,8 @@ static void widen(struct explore *explore, const double *x)
 }
 
 /* Adds the motion since the last sample as the model sees it, and compares once there is enough. */
-static void compare(struct explore *explore, const struct senses *senses, const struct pair *pair)
+static void compare_motion(struct explore *explore, const struct senses *senses,
+                           const struct pair *pair)
 {
     const struct config *config = senses->config;
     const double *jacobian = estimate_jacobian(senses->estimate);
@@ -132,7 +133,7 @@ static void gather_sample(struct behaviour *behaviour, const struct senses *sens
         return;
     control_gather(senses, wants, 1);
     behaviour->progress.done++;
-    compare(explore, senses, &wants->pair);
+    compare_motion(explore, senses, &wants->pair);
     if (!explore->any)
         next_goal(explore, senses->config, senses->now);
     widen(explore, wants->pair.x);

@@ -136,7 +136,7 @@ static void draw_place(struct random_state *random, double place[3])
     memcpy(world.robot.q, kept, sizeof kept);
 }
 
-static void run(reach_request_t request, const struct behaviour_ops *ops)
+static void run_request(reach_request_t request, const struct behaviour_ops *ops)
 {
     ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
     if (ops)
@@ -151,14 +151,14 @@ static void reach(int samples, int seed, double *errors)
 
     world_begin(fixture_robot_config("icub.yaml"), 0.0005);
     world_step();
-    run(
+    run_request(
         (reach_request_t){
             .kind = REACH_REQUEST_T_BABBLE, .count = samples, .seed = seed, .learn = 1},
         NULL);
     for (int i = 0; i < PLACES; i++) {
         reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 5};
         draw_place(&random, request.target[0]);
-        run(request, &guessing);
+        run_request(request, &guessing);
         errors[i] = error_to(request.target[0]);
     }
     ck_assert_int_eq(world.outputs.status.gated, 0);

@@ -95,7 +95,7 @@ static void hear_request(reach_request_t request)
     ck_assert(incoming_request(bytes, (size_t)size, &inputs.request[inputs.n_requests++]));
 }
 
-static void gather(int64_t number)
+static void gather_inputs(int64_t number)
 {
     memset(&inputs, 0, sizeof inputs);
     inputs.state_age = by_chance(0.02) ? random_uniform(&chance, 0, 0.2) : 0.003;
@@ -129,7 +129,7 @@ static void send(enum outgoing_kind kind, const void *message, size_t size)
 
 static void step(int64_t number)
 {
-    gather(number);
+    gather_inputs(number);
     tick_decide(tick, &inputs, robot.now, &outputs);
     if (by_chance(0.1)) /* as when there is seldom time to learn */
         tick_learn(tick);
