@@ -235,11 +235,11 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
     };
 
     if (arguments->replay)
-        return loop_replay_log(arguments->replay, &settings, error, error_size);
+        return player_play_log(arguments->replay, &settings, error, error_size);
     house_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
-    return loop_replay_bus(reachd->lcm, &settings, error, error_size);
+    return player_play_bus(reachd->lcm, &settings, error, error_size);
 }
 
 static int load_config(struct reachd *reachd, char *error, size_t error_size)

@@ -90,7 +90,7 @@ static int replay_file(FILE *file, const struct replay_settings *settings, char 
     return result;
 }
 
-int loop_replay_log(const char *path, const struct replay_settings *settings, char *error,
+int player_play_log(const char *path, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
     FILE *file = fopen(path, "rb");
@@ -190,7 +190,7 @@ static int play_until_told(lcm_t *lcm, struct playing *playing)
     return playing->failed ? -1 : 0;
 }
 
-int loop_replay_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
+int player_play_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
     struct playing *playing = calloc(1, sizeof *playing);
