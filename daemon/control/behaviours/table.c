@@ -8,7 +8,7 @@
     ROW(behaviour_reach)
 
 #define DECLARE(ops) extern const struct behaviour_ops ops;
-#define POINT_TO(ops) &ops,
+#define POINT_TO(ops) &(ops),
 
 BEHAVIOURS(DECLARE)
 
