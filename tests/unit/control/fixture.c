@@ -6,7 +6,6 @@
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 static struct config load(const char *const *names, int n_names, const char *const *overrides,
                           int n_overrides)
@@ -65,13 +64,4 @@ struct tick *fixture_tick(const struct config *config, struct arena **arena)
     const struct tick_settings settings = {.config = config, .model = model_port_none()};
 
     return fixture_tick_of(&settings, arena);
-}
-
-struct random_state fixture_random(const char *test)
-{
-    const char *given = getenv("REACH_TEST_SEED");
-    long long seed = given ? atoll(given) : (long long)time(NULL);
-
-    printf("%s: REACH_TEST_SEED=%lld\n", test, seed);
-    return random_seed(seed);
 }

@@ -2,8 +2,8 @@
 #ifndef TESTS_UNIT_CONTROL_FIXTURE_H
 #define TESTS_UNIT_CONTROL_FIXTURE_H
 
-#include "common/base/random.h"
 #include "daemon/config/config.h"
+#include "tests/unit/seed.h"
 
 #include <stdint.h>
 
@@ -28,8 +28,5 @@ struct tick *fixture_tick(const struct config *config, struct arena **arena);
 
 /* Likewise, as the settings say. */
 struct tick *fixture_tick_of(const struct tick_settings *settings, struct arena **arena);
-
-/* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
-struct random_state fixture_random(const char *test);
 
 #endif
