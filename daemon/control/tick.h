@@ -52,7 +52,6 @@ struct tick_outputs {
 };
 
 struct tick;
-
 struct behaviour_ops;
 
 struct tick_settings {

@@ -1,6 +1,7 @@
 /* A behaviour is added by its file, behaviour_null.c here, and a row of the table. */
 #include "common/bus/status_words.h"
 #include "daemon/control/behaviours/table.h"
+#include "daemon/control/inputs.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
 #include "world.h"
@@ -81,6 +82,8 @@ START_TEST(rows_are_what_is_said_outside)
     for (const struct behaviour_ops *const *row = behaviour_table; *row; row++) {
         ck_assert_str_eq((*row)->name, status_behaviour_word((*row)->code));
         ck_assert_ptr_eq(behaviour_find(behaviour_table, (*row)->kind), *row);
+        /* A stop stays a stop. */
+        ck_assert(!inputs_request_ok(&(reach_request_t){.kind = (*row)->kind, .count = 1}));
         ck_assert_uint_le((*row)->state_size, BEHAVIOUR_STATE_MOST);
     }
 }
