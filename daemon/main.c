@@ -6,6 +6,7 @@
 #include "daemon/config/config.h"
 #include "daemon/control/tick.h"
 #include "daemon/housekeeping.h"
+#include "daemon/model_of_store.h"
 #include "daemon/realtime/loop.h"
 #include "daemon/realtime/watchdog.h"
 #include "daemon/replay/player.h"
@@ -30,6 +31,7 @@ struct reachd {
     lcm_t *lcm;
     struct bus_claim *claim;
     struct arena *arena;
+    struct model_store *store;
     struct tick *tick;
     struct daemon_bus *bus;
     struct watchdog *watchdog;
@@ -87,20 +89,35 @@ static int check_model_directory(const struct config *config, char *error, size_
     return -1;
 }
 
+/* The control step, and who keeps its model, from which it goes on. */
+static int build_tick(struct reachd *reachd, char *error, size_t error_size)
+{
+    const struct model_store_settings settings = model_of_store_settings(&reachd->config);
+    struct tick_settings tick = {.config = &reachd->config};
+
+    reachd->store = model_store_create(&settings, reachd->arena, error, error_size);
+    if (!reachd->store)
+        return -1;
+    tick.model = model_of_store(reachd->store);
+    reachd->tick = tick_create(&tick, reachd->arena, error, error_size);
+    if (!reachd->tick)
+        return -1;
+    return model_store_open(reachd->store, tick_learner(reachd->tick), error, error_size);
+}
+
 /* All memory of the loop, in one piece. */
 static int build(struct reachd *reachd, char *error, size_t error_size)
 {
     bool lockstep = reachd->arguments.lockstep;
     bool real_time = is_real_time(reachd);
 
-    reachd->arena = arena_create(tick_memory(&reachd->config) + daemon_bus_memory() +
-                                 watchdog_memory() + loop_memory());
+    reachd->arena = arena_create(tick_memory(&reachd->config) + model_store_memory() +
+                                 daemon_bus_memory() + watchdog_memory() + loop_memory());
     if (!reachd->arena) {
         snprintf(error, error_size, "out of memory");
         return -1;
     }
-    reachd->tick = tick_create(&reachd->config, reachd->arena, error, error_size);
-    if (!reachd->tick || tick_open_model(reachd->tick, error, error_size))
+    if (build_tick(reachd, error, error_size))
         return -1;
     reachd->bus =
         daemon_bus_create(reachd->lcm, reachd->config.space.kind, reachd->arena, error, error_size);
@@ -122,8 +139,7 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
 
 static void tear_down(struct reachd *reachd)
 {
-    if (reachd->tick)
-        model_store_close(tick_model_store(reachd->tick));
+    model_store_close(reachd->store);
     if (reachd->lcm)
         lcm_destroy(reachd->lcm);
     bus_claim_free(reachd->claim);
@@ -141,7 +157,7 @@ static struct reload reload_of(const struct reachd *reachd)
 
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = tick_store_settings(config);
+    const struct model_store_settings settings = model_of_store_settings(config);
 
     if (model_store_check(&settings, error, error_size))
         return -1;
@@ -178,11 +194,9 @@ static void stop_threads(struct reachd *reachd)
 
 static int keep_model(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct model_store *store = tick_model_store(reachd->tick);
-
     if (is_real_time(reachd))
-        model_store_unlock_memory(store);
-    if (keeper_start(&reachd->keeper, store, error, error_size) == 0)
+        model_store_unlock_memory(reachd->store);
+    if (keeper_start(&reachd->keeper, reachd->store, error, error_size) == 0)
         return 0;
     stop_threads(reachd);
     return -1;
@@ -221,11 +235,11 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
     };
 
     if (arguments->replay)
-        return loop_replay_log(arguments->replay, &settings, error, error_size);
+        return player_play_log(arguments->replay, &settings, error, error_size);
     house_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
-    return loop_replay_bus(reachd->lcm, &settings, error, error_size);
+    return player_play_bus(reachd->lcm, &settings, error, error_size);
 }
 
 static int load_config(struct reachd *reachd, char *error, size_t error_size)

@@ -114,8 +114,8 @@ static int check_model(const struct settings *settings, char *error, size_t erro
 }
 
 /* Another service on this bus would answer the same requests. */
-static int run(const struct arguments *arguments, const struct settings *settings, char *error,
-               size_t error_size)
+static int serve_on_bus(const struct arguments *arguments, const struct settings *settings,
+                        char *error, size_t error_size)
 {
     struct bus_claim *claim = NULL;
     lcm_t *lcm = bus_open(arguments->url, error, error_size);
@@ -154,7 +154,7 @@ int main(int argc, char **argv)
                            arguments.configuration.n_paths, arguments.configuration.overrides,
                            arguments.configuration.n_overrides, error, sizeof error) ||
              (arguments.check_model ? check_model(&settings, error, sizeof error)
-                                    : run(&arguments, &settings, error, sizeof error));
+                                    : serve_on_bus(&arguments, &settings, error, sizeof error));
     if (status)
         log_error("%s", error);
     return status ? 1 : 0;

@@ -56,7 +56,7 @@ static void take_signals(void)
     sigaction(SIGTERM, &action, NULL);
 }
 
-static void rest(void)
+static void wait_for_work(void)
 {
     const int64_t until = bus_monotonic_us() + patience_us;
     const struct timespec end = {until / 1000000, until % 1000000 * 1000};
@@ -115,7 +115,7 @@ static void serve(struct server *server)
         answer_due(server);
         tell_service(server);
         if (!more)
-            rest();
+            wait_for_work();
     }
     notify_send("STOPPING=1");
 }

@@ -10,7 +10,7 @@
 static const int64_t period_us = 20000;
 
 /* Until somebody wakes it, or the period is over. Several calls are one. */
-static void rest(struct keeper *keeper)
+static void wait_for_work(struct keeper *keeper)
 {
     const int64_t until = bus_monotonic_us() + period_us;
     const struct timespec end = {until / 1000000, until % 1000000 * 1000};
@@ -21,7 +21,7 @@ static void rest(struct keeper *keeper)
         ;
 }
 
-static void *keep(void *user)
+static void *serve_store(void *user)
 {
     struct keeper *keeper = user;
 
@@ -30,7 +30,7 @@ static void *keep(void *user)
         model_store_serve(keeper->store, bus_monotonic_us());
         if (keeper->looked)
             keeper->looked(keeper->user);
-        rest(keeper);
+        wait_for_work(keeper);
     }
     return NULL;
 }
@@ -39,7 +39,7 @@ int keeper_start(struct keeper *keeper, struct model_store *store, char *error, 
 {
     keeper->store = store;
     sem_init(&keeper->work, 0, 0);
-    return realtime_thread(&keeper->thread, 0, keep, keeper, error, error_size);
+    return realtime_thread(&keeper->thread, 0, serve_store, keeper, error, error_size);
 }
 
 void keeper_wake(struct keeper *keeper)

@@ -101,6 +101,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char error[512] = "";
     struct bus_claim *claim = NULL;
     lcm_t *lcm = lcm_create("");
+    const struct tick_settings settings = {.config = &config, .model = model_port_none()};
     struct daemon_bus *bus;
     struct tick *tick;
 
@@ -108,11 +109,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         begin();
     HARNESS_REQUIRE(bus_claim_role(lcm, REACH_HELLO_T_DAEMON, 0, &claim) == 0);
     arena = arena_create(tick_memory(&config) + daemon_bus_memory());
-    tick = tick_create(&config, arena, error, sizeof error);
+    tick = tick_create(&settings, arena, error, sizeof error);
     bus = daemon_bus_create(lcm, config.space.kind, arena, error, sizeof error);
     HARNESS_REQUIRE(tick && bus);
     hear(bus, tick, data, size);
-    model_store_close(tick_model_store(tick));
     arena_destroy(arena);
     bus_claim_free(claim);
     lcm_destroy(lcm);

@@ -46,7 +46,13 @@ CALLS_BY_POINTER = {
         "learner_predict": {"predict"},
         "learner_get_statistics": {"experts"},
     },
-    "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"start"}},
+    "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"accepts", "start"}},
+    "model_port_ops": {
+        "tick_learn": {"note"},
+        "tick_awaits_store": {"works", "full"},
+        "tick_take_requests": {"poll", "begin_save", "begin_load"},
+        "tick_report": {"report", "moment"},
+    },
 }
 # Whoever else calls by pointer within the learner does so through these.
 LEARNER_TABLES = ("kernels", "feature_map_ops")

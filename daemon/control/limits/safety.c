@@ -10,7 +10,7 @@ void safety_init(struct safety *safety, const struct config *config)
 }
 
 /* The last command, in force for so many periods. */
-static void move(struct safety *safety, double periods)
+static void hold_command(struct safety *safety, double periods)
 {
     safety->newest = (safety->newest + 1) % SAFETY_RECENT;
     safety->since += safety->since < SAFETY_RECENT;
@@ -32,7 +32,7 @@ void safety_measured(struct safety *safety)
 void safety_held(struct safety *safety, int64_t periods)
 {
     if (periods > 0)
-        move(safety, (double)periods);
+        hold_command(safety, (double)periods);
 }
 
 /* The greatest v for which v hold + v^2 / (2 acceleration) is at most `room`: held for so long,
@@ -89,7 +89,7 @@ bool safety_gate(struct safety *safety, const double *q, double *velocity)
         velocity[i] = gated;
         safety->previous[i] = gated;
     }
-    move(safety, 1);
+    hold_command(safety, 1);
     safety->changed += changed;
     return changed;
 }
@@ -114,7 +114,7 @@ void safety_was_braked(struct safety *safety, int braking_commands)
 {
     for (int i = 0; i < braking_commands && !safety_at_rest(safety->previous); i++) {
         safety_brake(safety->config, safety->previous);
-        move(safety, 1);
+        hold_command(safety, 1);
     }
 }
 

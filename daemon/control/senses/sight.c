@@ -10,12 +10,6 @@ void sight_init(struct sight *sight, const struct config *config)
     sight->newest = INT64_MIN;
 }
 
-void sight_forget(struct sight *sight)
-{
-    sight->count = 0;
-    sight->newest_seen = false;
-}
-
 bool sight_observe(struct sight *sight, const struct observation *marker,
                    const struct history *history)
 {

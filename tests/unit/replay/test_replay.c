@@ -41,13 +41,11 @@ static void begin(void)
     const struct replay_settings settings = {.verify = true};
     static reach_config_t message;
     static unsigned char bytes[sizeof message + 8];
-    char error[256];
 
     config = fixture_config(overrides, 3);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
+    tick = fixture_tick(&config, &arena);
     replay = replay_create(&settings);
-    ck_assert(tick && replay);
+    ck_assert_ptr_nonnull(replay);
     fake_robot_init(&robot, &config);
     outgoing_init(&out, NULL, "");
     config_message(&config, &message);
@@ -97,7 +95,7 @@ static void hear_request(reach_request_t request)
     ck_assert(incoming_request(bytes, (size_t)size, &inputs.request[inputs.n_requests++]));
 }
 
-static void gather(int64_t number)
+static void gather_inputs(int64_t number)
 {
     memset(&inputs, 0, sizeof inputs);
     inputs.state_age = by_chance(0.02) ? random_uniform(&chance, 0, 0.2) : 0.003;
@@ -131,7 +129,7 @@ static void send(enum outgoing_kind kind, const void *message, size_t size)
 
 static void step(int64_t number)
 {
-    gather(number);
+    gather_inputs(number);
     tick_decide(tick, &inputs, robot.now, &outputs);
     if (by_chance(0.1)) /* as when there is seldom time to learn */
         tick_learn(tick);

@@ -5,25 +5,25 @@
 START_TEST(a_full_queue_drops_and_counts)
 {
     struct learner_config config = learner_config_default(1, 1);
-    struct training training;
+    struct sample_queue queue;
     struct learner *learner;
     struct arena *arena;
     char error[128];
 
     config.psi0[0] = config.sigma0[0] = 1;
-    arena = arena_create(training_memory(3) + learner_memory(&config));
+    arena = arena_create(sample_queue_memory(3) + learner_memory(&config));
     learner = learner_create(&config, arena, error, sizeof error);
     ck_assert_msg(learner != NULL, "%s", error);
-    ck_assert_int_eq(training_init(&training, 3, arena), 0);
+    ck_assert_int_eq(sample_queue_init(&queue, 3, arena), 0);
     for (int i = 0; i < 5; i++)
-        training_add(&training, (double[]){i}, 1, (double[]){2.0 * i}, 1);
-    ck_assert_int_eq(training.count, 3);
-    ck_assert_int_eq(training.dropped, 2);
-    ck_assert_double_eq(training.samples[training.oldest].z[0], 0);
+        sample_queue_add(&queue, (double[]){i}, 1, (double[]){2.0 * i}, 1);
+    ck_assert_int_eq(queue.count, 3);
+    ck_assert_int_eq(queue.dropped, 2);
+    ck_assert_double_eq(queue.samples[queue.oldest].z[0], 0);
     for (int i = 0; i < 3; i++)
-        ck_assert(training_learn_one(&training, learner));
-    ck_assert(!training_learn_one(&training, learner));
-    ck_assert_int_eq(training.learned, 3);
+        ck_assert(sample_queue_learn_one(&queue, learner));
+    ck_assert(!sample_queue_learn_one(&queue, learner));
+    ck_assert_int_eq(queue.learned, 3);
     arena_destroy(arena);
 }
 END_TEST
@@ -32,5 +32,5 @@ int main(void)
 {
     const TTest *const tests[] = {a_full_queue_drops_and_counts};
 
-    return SUITE_RUN("training", tests);
+    return SUITE_RUN("sample_queue", tests);
 }
