@@ -1,10 +1,9 @@
 #include "simrobot/run/clock_realtime.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/thread.h"
 #include "common/program/log.h"
 
 namespace sim
@@ -14,12 +13,6 @@ namespace
 
 /* Later than this behind the grid, the grid is given up and begun anew. */
 const int64_t largest_lag_us = 100000;
-
-void sleep_until(int64_t monotonic_us)
-{
-    struct timespec until = {monotonic_us / 1000000, (monotonic_us % 1000000) * 1000};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
-}
 
 class RealTime
 {
@@ -96,7 +89,7 @@ private:
             if (now - at > largest_lag_us)
                 return catch_up(now - at);
             if (at > now)
-                sleep_until(at);
+                sleep_until(at * 1000);
             receive(0);
             session_.step(at + latency_us_);
         }
