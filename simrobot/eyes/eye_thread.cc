@@ -23,7 +23,7 @@ std::unique_ptr<EyeThread> EyeThread::create(const Config &config, uint64_t seed
 {
     std::unique_ptr<EyeThread> eyes(new EyeThread(config, seed, lcm, may_drop));
 
-    eyes->thread_ = std::thread(&EyeThread::run, eyes.get());
+    eyes->thread_ = std::thread(&EyeThread::serve_jobs, eyes.get());
     std::unique_lock<std::mutex> lock(eyes->mutex_);
     eyes->changed_.wait(lock, [&] { return eyes->started_ || eyes->failed_; });
     if (!eyes->failed_)
@@ -54,7 +54,7 @@ bool EyeThread::start(std::string *error)
     return true;
 }
 
-void EyeThread::run()
+void EyeThread::serve_jobs()
 {
     std::string error;
     bool good = start(&error);

@@ -24,11 +24,11 @@ public:
     {
     }
 
-    bool run()
+    bool run_to_the_end()
     {
         start_grid();
         while (!failed_ && !stopping_() && !session_.control().quit) {
-            receive(0);
+            take_command(0);
             session_.handle_requests();
             if (session_.control().paused) {
                 stand();
@@ -55,13 +55,13 @@ private:
 
     void stand()
     {
-        receive(100);
+        take_command(100);
         session_.handle_requests();
         if (!session_.control().paused)
             start_grid();
     }
 
-    void receive(int milliseconds)
+    void take_command(int milliseconds)
     {
         Command command;
 
@@ -90,7 +90,7 @@ private:
                 return catch_up(now - at);
             if (at > now)
                 sleep_until(at * 1000);
-            receive(0);
+            take_command(0);
             session_.step(at + latency_us_);
         }
     }
@@ -126,7 +126,7 @@ private:
 bool realtime_run(const Config &config, Session &session, SimBus &bus, bool (*stopping)(),
                   std::string *error)
 {
-    if (RealTime(config, session, bus, stopping).run())
+    if (RealTime(config, session, bus, stopping).run_to_the_end())
         return true;
     *error = "the LCM bus failed";
     return false;

@@ -86,7 +86,7 @@ void put_row(json *out, const Row &row)
     json_end_object(out);
 }
 
-void write(const std::vector<Row> &rows, const char *path)
+void write_report(const std::vector<Row> &rows, const char *path)
 {
     char error[1200];
     output_file file;
@@ -125,7 +125,7 @@ void measure_cases(const Settings &settings)
     progress("");
     if (rows.empty())
         throw std::runtime_error(std::string("--only: no case holds '") + settings.only + "'");
-    write(rows, settings.json);
+    write_report(rows, settings.json);
 }
 
 } // namespace
