@@ -10,9 +10,9 @@
 #include "simrobot/command_line.h"
 #include "simrobot/eyes/egl_context.h"
 #include "simrobot/eyes/eye_thread.h"
+#include "simrobot/eyes/tasks.h"
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
-#include "simrobot/tasks.h"
 
 namespace
 {

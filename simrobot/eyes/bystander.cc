@@ -1,4 +1,4 @@
-#include "simrobot/bystander.h"
+#include "simrobot/eyes/bystander.h"
 
 #include <algorithm>
 
