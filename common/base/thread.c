@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <time.h>
 
 void realtime_limit_memory(void)
 {
@@ -94,4 +95,12 @@ int64_t realtime_page_faults(void)
     if (getrusage(RUSAGE_THREAD, &usage))
         return 0;
     return usage.ru_minflt + usage.ru_majflt;
+}
+
+void sleep_until(int64_t ns)
+{
+    const struct timespec due = {.tv_sec = ns / 1000000000, .tv_nsec = ns % 1000000000};
+
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL) == EINTR)
+        ;
 }

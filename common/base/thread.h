@@ -6,6 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* SCHED_FIFO priorities: over everything ordinary, under the kernel's own. The watchdog looks even
  * when the loop never sleeps; the bus must not wait behind ordinary load, but never delays the
  * loop. */
@@ -40,5 +44,12 @@ void realtime_touch_stack(void);
 
 /* Page faults of the calling thread so far, with and without a disk. */
 int64_t realtime_page_faults(void);
+
+/* Until CLOCK_MONOTONIC says `ns`; signals do not end it. */
+void sleep_until(int64_t ns);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

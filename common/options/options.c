@@ -122,8 +122,8 @@ static int set_list(const struct option_row *row, struct option_list *field,
     return 0;
 }
 
-int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
-               bool is_list, char *error, size_t error_size)
+static int option_set(const struct option_row *row, void *target, const char *const *items,
+                      int n_items, bool is_list, char *error, size_t error_size)
 {
     char *field = (char *)target + row->offset;
 

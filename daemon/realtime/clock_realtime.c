@@ -1,10 +1,10 @@
 #include "daemon/realtime/loop_private.h"
 
+#include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "daemon/control/inputs.h"
 #include "daemon/realtime/grid.h"
 
-#include <errno.h>
 #include <math.h>
 #include <time.h>
 
@@ -45,14 +45,6 @@ static int64_t monotonic_ns(void)
 
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-static void sleep_until(int64_t ns)
-{
-    struct timespec due = {.tv_sec = ns / 1000000000, .tv_nsec = ns % 1000000000};
-
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL) == EINTR)
-        ;
 }
 
 /* Late is what ends after the period that began at `due`, whether it woke late or took long. */

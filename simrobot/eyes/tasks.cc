@@ -1,4 +1,4 @@
-#include "simrobot/tasks.h"
+#include "simrobot/eyes/tasks.h"
 
 #include <time.h>
 
@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "common/bus/open.h"
-#include "simrobot/bystander.h"
+#include "simrobot/eyes/bystander.h"
 #include "simrobot/eyes/image_message.h"
 #include "simrobot/eyes/renderer.h"
 #include "simrobot/eyes/sensor.h"

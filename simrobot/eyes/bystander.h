@@ -1,6 +1,6 @@
 /* Where somebody stands who looks at a robot without eyes, for a picture of it. */
-#ifndef SIMROBOT_BYSTANDER_H
-#define SIMROBOT_BYSTANDER_H
+#ifndef SIMROBOT_EYES_BYSTANDER_H
+#define SIMROBOT_EYES_BYSTANDER_H
 
 #include "simrobot/world/simulation.h"
 

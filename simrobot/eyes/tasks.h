@@ -1,6 +1,6 @@
 /* What can be asked of the eyes without a bus: one picture, and how long pictures take. */
-#ifndef SIMROBOT_TASKS_H
-#define SIMROBOT_TASKS_H
+#ifndef SIMROBOT_EYES_TASKS_H
+#define SIMROBOT_EYES_TASKS_H
 
 #include "simrobot/world/simulation.h"
 

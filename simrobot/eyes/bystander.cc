@@ -1,4 +1,4 @@
-#include "simrobot/bystander.h"
+#include "simrobot/eyes/bystander.h"
 
 #include <algorithm>
 
@@ -21,8 +21,8 @@ double reach_of(const Shape &shape)
 }
 
 /* Looks along x at `target` from `distance` away in the direction `from`; z up. */
-Eigen::Isometry3d look_at(const Eigen::Vector3d &target, const Eigen::Vector3d &from,
-                          double distance)
+Eigen::Isometry3d camera_looking_at(const Eigen::Vector3d &target, const Eigen::Vector3d &from,
+                                    double distance)
 {
     Eigen::Matrix3d axes;
 
@@ -45,8 +45,8 @@ void bystander_look_on(double half_view, Snapshot *snapshot)
         radius =
             std::max(radius, (shape.pose.translation() - box.center()).norm() + reach_of(shape));
     radius = std::max(radius, (snapshot->ball - box.center()).norm() + snapshot->ball_radius);
-    snapshot->left_eye = look_at(box.center(), {-0.6, 1, 0.5}, radius / half_view);
-    snapshot->right_eye = look_at(box.center(), {-0.3, -1, 0.2}, radius / half_view);
+    snapshot->left_eye = camera_looking_at(box.center(), {-0.6, 1, 0.5}, radius / half_view);
+    snapshot->right_eye = camera_looking_at(box.center(), {-0.3, -1, 0.2}, radius / half_view);
 }
 
 } // namespace sim
