@@ -1,5 +1,6 @@
 #include "daemon/bus/bus.h"
 
+#include "common/base/checksum.h"
 #include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -68,7 +69,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     struct received_state received = {.received = bus_monotonic_us()};
 
     (void)channel;
-    received.checksum = incoming_checksum(message->data, message->data_size);
+    received.checksum = checksum_crc32(message->data, message->data_size);
     if (incoming_state(message->data, message->data_size, &received.state))
         deliver(bus, bus->states, &received);
     else
@@ -91,7 +92,7 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 {
     struct daemon_bus *bus = user;
     struct received_request received = {.checksum =
-                                            incoming_checksum(message->data, message->data_size)};
+                                            checksum_crc32(message->data, message->data_size)};
 
     (void)channel;
     if (!incoming_request(message->data, message->data_size, &received.request)) {

@@ -1,8 +1,8 @@
 #include "daemon/config/text.h"
 
+#include "common/base/checksum.h"
 #include "common/bus/open.h"
 #include "common/program/version.h"
-#include "daemon/bus/incoming.h"
 
 #include <string.h>
 
@@ -60,7 +60,7 @@ int config_from_text(struct config *config, char *text, char *error, size_t erro
 
 uint32_t config_text_checksum(const char *text)
 {
-    return incoming_checksum(text, strlen(text));
+    return checksum_crc32(text, strlen(text));
 }
 
 void config_message(const struct config *config, reach_config_t *message)

@@ -1,6 +1,6 @@
 /* A log that is to be replayed: as it is, and with its checksums made right again, so that what was
  * damaged gets as far as the control step. What comes out is finite, and a refusal has a reason. */
-#include "daemon/bus/incoming.h"
+#include "common/base/checksum.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/replay/event_log.h"
 #include "daemon/replay/player.h"
@@ -33,11 +33,11 @@ static void make_right(const char *channel, unsigned char *data, size_t size)
     size_t covered = outgoing_trace_covered();
 
     if (strcmp(channel, "REACH_TRACE") == 0 && size == covered + 4)
-        put_word(data + covered, incoming_checksum(data, covered));
+        put_word(data + covered, checksum_crc32(data, covered));
     if (strcmp(channel, "REACH_CONFIG") == 0 && size > CONFIG_TEXT_AT) {
         size_t most = size - CONFIG_TEXT_AT;
         size_t length = strnlen((const char *)data + CONFIG_TEXT_AT, most);
-        put_word(data + CONFIG_CHECKSUM_AT, incoming_checksum(data + CONFIG_TEXT_AT, length));
+        put_word(data + CONFIG_CHECKSUM_AT, checksum_crc32(data + CONFIG_TEXT_AT, length));
     }
 }
 
