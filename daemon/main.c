@@ -3,7 +3,7 @@
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "daemon/housekeeping.h"
 #include "daemon/realtime/loop.h"

@@ -1,6 +1,8 @@
 #include "daemon/reload.h"
 
 #include "common/program/log.h"
+#include "daemon/config/load.h"
+#include "daemon/config/table.h"
 
 #include <stdio.h>
 #include <string.h>

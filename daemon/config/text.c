@@ -3,10 +3,12 @@
 #include "common/base/checksum.h"
 #include "common/bus/open.h"
 #include "common/program/version.h"
+#include "daemon/config/table.h"
 
+#include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 256, LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
+enum { LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
 
 /* As --set takes it. A text stands in quotes, since YAML would take some characters otherwise. */
 static void line(const struct option_row *row, const struct config *config, char out[LINE_SIZE])
@@ -44,18 +46,6 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
             return -1;
     }
     return used;
-}
-
-int config_from_text(struct config *config, char *text, char *error, size_t error_size)
-{
-    const char *overrides[MOST_LINES];
-    char *rest = text, *next;
-    int n = 0;
-
-    while ((next = strsep(&rest, "\n")) != NULL && n < MOST_LINES)
-        if (*next)
-            overrides[n++] = next;
-    return config_load(config, NULL, 0, overrides, n, error, error_size);
 }
 
 uint32_t config_text_checksum(const char *text)

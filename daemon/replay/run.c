@@ -1,6 +1,7 @@
 /* The beginning of a run: the configuration and the model that it had. */
 #include "daemon/replay/replay_private.h"
 
+#include "daemon/config/load.h"
 #include "daemon/reload.h"
 
 #include <inttypes.h>

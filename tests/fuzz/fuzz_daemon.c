@@ -2,7 +2,7 @@
  * through. Whatever comes, commands are finite and within the limits of the safety gate. */
 #include "common/bus/open.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "fake_lcm.h"
 #include "harness.h"
