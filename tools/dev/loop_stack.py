@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("common", "daemon", "learner")  # what the loop is made of
-ENTRY = "daemon/realtime/loop.c:run"
+ENTRY = "daemon/realtime/loop.c:run_loop"
 # Called before the first tick alone; what they call does not count.
 AT_START = {
     "pthread_self",
