@@ -2,7 +2,7 @@
 
 #include "common/bus/open.h"
 #include "daemon/control/inputs.h"
-#include "daemon/realtime/grid.h"
+#include "daemon/realtime/sleep_policy.h"
 
 #include <errno.h>
 #include <math.h>
@@ -90,7 +90,7 @@ void clock_run_real_time(struct step *step)
     while (!step_ending(step)) {
         sleep_until(due);
         step_real_time(step, due, period);
-        due = grid_next(due, monotonic_ns(), period, &step->inputs.slipped);
+        due = sleep_policy_next(due, monotonic_ns(), period, &step->inputs.slipped);
         step->slips += step->inputs.slipped;
     }
 }
