@@ -188,7 +188,7 @@ static int keep_model(struct reachd *reachd, char *error, size_t error_size)
     return -1;
 }
 
-static int run(struct reachd *reachd, char *error, size_t error_size)
+static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
 {
     struct house house = {0};
 
@@ -246,7 +246,7 @@ static int work(struct reachd *reachd, char *error, size_t error_size)
     if (check_model_directory(&reachd->config, error, error_size))
         return -1;
     return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)
-                                         : run(reachd, error, error_size);
+                                         : run_daemon(reachd, error, error_size);
 }
 
 int main(int argc, char **argv)

@@ -12,7 +12,8 @@ void service_begin(struct service *service)
     notify_send("READY=1\nSTATUS=waiting for the robot");
 }
 
-void service_line(const reach_status_t *status, char *line, size_t size)
+/* The line on a status, for people. */
+static void write_line(const reach_status_t *status, char *line, size_t size)
 {
     snprintf(line, size,
              "%s, %s (%s) %d of %d; %lld samples, %d experts; worst tick %.0f us, %lld overruns",
@@ -33,7 +34,7 @@ void service_keep(struct service *service, int64_t now, int64_t ticks, bool wait
     if (!status || now - service->told < line_period)
         return;
     service->told = now;
-    service_line(status, line, sizeof line);
+    write_line(status, line, sizeof line);
     notify_send("STATUS=%s", line);
 }
 

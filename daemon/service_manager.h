@@ -7,7 +7,6 @@
 
 #include <reach_status_t.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 struct service {
@@ -27,8 +26,5 @@ void service_keep(struct service *service, int64_t now, int64_t ticks, bool wait
 
 /* The daemon has begun to end. */
 void service_end(void);
-
-/* The line on a status, for people. Public for tests. */
-void service_line(const reach_status_t *status, char *line, size_t size);
 
 #endif

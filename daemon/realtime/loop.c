@@ -69,7 +69,7 @@ static void send_rest(struct loop *loop)
 }
 
 /* From here on the thread asks the system for nothing that is not in confine.c. */
-static int enter(struct loop *loop)
+static int enter_thread(struct loop *loop)
 {
     if (loop->real_time &&
         realtime_enter(REALTIME_PRIORITY_LOOP, loop->start_error, sizeof loop->start_error))
@@ -86,7 +86,7 @@ static void *run_loop(void *user)
     struct loop *loop = user;
 
     pthread_setname_np(pthread_self(), "reachd-loop");
-    loop->start_result = enter(loop);
+    loop->start_result = enter_thread(loop);
     sem_post(&loop->started);
     if (loop->start_result)
         return NULL;
