@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-struct house {
+struct housekeeping {
     struct loop *loop;
     struct daemon_bus *bus;
     struct reload *reload;
@@ -23,10 +23,10 @@ struct house {
     int64_t announced;     /* when the bus was last told the configuration, monotonic us */
 };
 
-/* Blocks the signals that house_keep receives. To be called before any thread starts. */
-void house_take_signals(void);
+/* Blocks the signals that housekeeping_run receives. To be called before any thread starts. */
+void housekeeping_take_signals(void);
 
 /* Keeps house until SIGINT or SIGTERM asks to end. */
-void house_keep(struct house *house);
+void housekeeping_run(struct housekeeping *housekeeping);
 
 #endif

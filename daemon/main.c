@@ -190,19 +190,19 @@ static int keep_model(struct reachd *reachd, char *error, size_t error_size)
 
 static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct house house = {0};
+    struct housekeeping housekeeping = {0};
 
     reachd->reload = reload_of(reachd);
-    house_take_signals();
+    housekeeping_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
         start_threads(reachd, error, error_size) || keep_model(reachd, error, error_size))
         return -1;
     log_info("ready");
-    house.loop = reachd->loop;
-    house.bus = reachd->bus;
-    house.reload = &reachd->reload;
-    house_keep(&house);
+    housekeeping.loop = reachd->loop;
+    housekeeping.bus = reachd->bus;
+    housekeeping.reload = &reachd->reload;
+    housekeeping_run(&housekeeping);
     stop_threads(reachd);
     keeper_stop(&reachd->keeper);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
@@ -222,7 +222,7 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
 
     if (arguments->replay)
         return loop_replay_log(arguments->replay, &settings, error, error_size);
-    house_take_signals();
+    housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
     return loop_replay_bus(reachd->lcm, &settings, error, error_size);
