@@ -59,15 +59,16 @@ static void say_fault(struct housekeeping *housekeeping)
                   status_fault_word(fault));
 }
 
-static void tell_service(struct housekeeping *housekeeping)
+static void tell_service_manager(struct housekeeping *housekeeping)
 {
     while (mailbox_take(daemon_bus_reports(housekeeping->bus), &housekeeping->status)) {
         housekeeping->any_status = true;
         say_fault(housekeeping);
     }
-    service_keep(&housekeeping->service, bus_monotonic_us(), loop_ticks(housekeeping->loop),
-                 loop_waits(housekeeping->loop) != LOOP_RUNS,
-                 housekeeping->any_status ? &housekeeping->status : NULL);
+    service_manager_tell(&housekeeping->service_manager, bus_monotonic_us(),
+                         loop_ticks(housekeeping->loop),
+                         loop_waits(housekeeping->loop) != LOOP_RUNS,
+                         housekeeping->any_status ? &housekeeping->status : NULL);
 }
 
 static void read_configuration_again(struct housekeeping *housekeeping)
@@ -93,7 +94,7 @@ void housekeeping_run(struct housekeeping *housekeeping)
     const struct timespec period = {.tv_nsec = (long)period_ms * 1000000};
     sigset_t signals = housekeeping_signals();
 
-    service_begin(&housekeeping->service);
+    service_manager_begin(&housekeeping->service_manager);
     for (;;) {
         int signal = sigtimedwait(&signals, NULL, &period);
         if (signal == SIGINT || signal == SIGTERM)
@@ -102,7 +103,7 @@ void housekeeping_run(struct housekeeping *housekeeping)
             read_configuration_again(housekeeping);
         say_what_is_awaited(housekeeping);
         say_configuration(housekeeping);
-        tell_service(housekeeping);
+        tell_service_manager(housekeeping);
     }
-    service_end();
+    service_manager_end();
 }

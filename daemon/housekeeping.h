@@ -14,7 +14,7 @@ struct housekeeping {
     struct loop *loop;
     struct daemon_bus *bus;
     struct reload *reload;
-    struct service service;
+    struct service_manager service_manager;
     reach_status_t status; /* the newest */
     bool any_status;
     int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
