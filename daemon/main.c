@@ -48,13 +48,13 @@ static int open_bus(struct reachd *reachd, char *error, size_t error_size)
 {
     bool real_time = is_real_time(reachd);
 
-    realtime_limit_memory();
-    if (real_time && realtime_enter(REALTIME_PRIORITY_BUS, error, error_size))
+    thread_limit_memory();
+    if (real_time && thread_enter(THREAD_PRIORITY_BUS, error, error_size))
         return -1;
     reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
     if (!reachd->lcm)
         return -1;
-    return real_time ? realtime_enter(0, error, error_size) : 0;
+    return real_time ? thread_enter(0, error, error_size) : 0;
 }
 
 /* Another daemon on this bus would steer the same robot. */

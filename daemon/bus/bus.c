@@ -176,11 +176,11 @@ static void *send(void *user)
 
 int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size)
 {
-    int priority = real_time ? REALTIME_PRIORITY_BUS : 0;
+    int priority = real_time ? THREAD_PRIORITY_BUS : 0;
 
-    if (realtime_thread(&bus->receiver, priority, receive, bus, error, error_size))
+    if (thread_start(&bus->receiver, priority, receive, bus, error, error_size))
         return -1;
-    return realtime_thread(&bus->sender, priority, send, bus, error, error_size);
+    return thread_start(&bus->sender, priority, send, bus, error, error_size);
 }
 
 void daemon_bus_stop(struct daemon_bus *bus)

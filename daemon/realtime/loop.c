@@ -72,12 +72,12 @@ static void send_rest(struct loop *loop)
 static int enter_thread(struct loop *loop)
 {
     if (loop->real_time &&
-        realtime_enter(REALTIME_PRIORITY_LOOP, loop->start_error, sizeof loop->start_error))
+        thread_enter(THREAD_PRIORITY_LOOP, loop->start_error, sizeof loop->start_error))
         return -1;
-    realtime_touch_stack();
+    thread_touch_stack();
     if (confine_thread(loop->start_error, sizeof loop->start_error))
         return -1;
-    loop->step.page_faults = realtime_page_faults();
+    loop->step.page_faults = thread_page_faults();
     return 0;
 }
 
@@ -104,9 +104,9 @@ int loop_start(struct loop *loop, char *error, size_t error_size)
         snprintf(error, error_size, "%s", strerror(errno));
         return -1;
     }
-    if (loop->real_time && realtime_lock_memory(error, error_size))
+    if (loop->real_time && thread_lock_memory(error, error_size))
         return -1;
-    if (realtime_thread(&loop->thread, 0, run_loop, loop, error, error_size))
+    if (thread_start(&loop->thread, 0, run_loop, loop, error, error_size))
         return -1;
     while (sem_wait(&loop->started) && errno == EINTR)
         ;

@@ -43,7 +43,7 @@ void step_report(struct step *step, int64_t now)
     status->wakeup_mean_us = timing_mean(&step->wakeup);
     status->wakeup_p999_us = timing_quantile(&step->wakeup, 0.999);
     status->wakeup_max_us = step->wakeup.max;
-    status->page_faults = realtime_page_faults() - step->page_faults;
+    status->page_faults = thread_page_faults() - step->page_faults;
     status->overruns = step->overruns;
     status->slips = step->slips;
     step->outputs.trace.refused = daemon_bus_refused(step->bus) + step->bad_states;

@@ -159,8 +159,8 @@ static void *watch(void *user)
 
 int watchdog_start(struct watchdog *watchdog, bool real_time, char *error, size_t error_size)
 {
-    return realtime_thread(&watchdog->thread, real_time ? REALTIME_PRIORITY_WATCHDOG : 0, watch,
-                           watchdog, error, error_size);
+    return thread_start(&watchdog->thread, real_time ? THREAD_PRIORITY_WATCHDOG : 0, watch,
+                        watchdog, error, error_size);
 }
 
 void watchdog_stop(struct watchdog *watchdog)

@@ -79,7 +79,7 @@ static void *receive(void *user)
 
 int service_bus_start(struct service_bus *bus, char *error, size_t error_size)
 {
-    return realtime_thread(&bus->receiver, 0, receive, bus, error, error_size);
+    return thread_start(&bus->receiver, 0, receive, bus, error, error_size);
 }
 
 void service_bus_stop(struct service_bus *bus)

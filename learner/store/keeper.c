@@ -39,7 +39,7 @@ int keeper_start(struct keeper *keeper, struct model_store *store, char *error, 
 {
     keeper->store = store;
     sem_init(&keeper->work, 0, 0);
-    return realtime_thread(&keeper->thread, 0, keep, keeper, error, error_size);
+    return thread_start(&keeper->thread, 0, keep, keeper, error, error_size);
 }
 
 void keeper_wake(struct keeper *keeper)

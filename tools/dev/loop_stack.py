@@ -25,8 +25,8 @@ ENTRY = "daemon/realtime/loop.c:run_loop"
 AT_START = {
     "pthread_self",
     "pthread_setname_np",
-    "realtime_enter",
-    "realtime_touch_stack",
+    "thread_enter",
+    "thread_touch_stack",
     "confine_thread",
 }
 # Of the libraries, and what each may take of the stack; bytes, generously.
@@ -205,7 +205,7 @@ def sources() -> list[dict]:
 def limit() -> int:
     """What thread.h says is touched at start."""
     text = (ROOT / "common/base/thread.h").read_text()
-    words = re.search(r"REALTIME_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
+    words = re.search(r"THREAD_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
     return int(words[1]) * int(words[2])
 
 
