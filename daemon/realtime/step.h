@@ -3,7 +3,7 @@
 #ifndef REACH_DAEMON_REALTIME_STEP_H
 #define REACH_DAEMON_REALTIME_STEP_H
 
-#include "common/base/durations.h"
+#include "common/base/duration_histogram.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/config.h"
 #include "daemon/control/tick.h"

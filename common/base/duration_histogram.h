@@ -1,6 +1,6 @@
 /* Running statistics of durations, in constant memory: last, mean, maximum, quantiles. */
-#ifndef REACH_COMMON_BASE_DURATIONS_H
-#define REACH_COMMON_BASE_DURATIONS_H
+#ifndef REACH_COMMON_BASE_DURATION_HISTOGRAM_H
+#define REACH_COMMON_BASE_DURATION_HISTOGRAM_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "common/base/durations.h"
+#include "common/base/duration_histogram.h"
 
 #include <math.h>
 

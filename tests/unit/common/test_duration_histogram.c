@@ -1,5 +1,5 @@
 /* Running statistics. */
-#include "common/base/durations.h"
+#include "common/base/duration_histogram.h"
 #include "tests/unit/suite.h"
 
 START_TEST(quantiles_are_within_a_bucket)
