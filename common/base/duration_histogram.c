@@ -5,32 +5,33 @@
 static const double least = 0.1;   /* us, end of the first bucket */
 static const double growth = 1.05; /* from one bucket's end to the next's */
 
-void timing_add(struct timing *timing, double microseconds)
+void duration_histogram_add(struct duration_histogram *histogram, double microseconds)
 {
     double place = microseconds > least ? ceil(log(microseconds / least) / log(growth)) : 0;
-    int index = place < TIMING_BUCKETS - 1 ? (int)place : TIMING_BUCKETS - 1;
+    int index =
+        place < DURATION_HISTOGRAM_BUCKETS - 1 ? (int)place : DURATION_HISTOGRAM_BUCKETS - 1;
 
-    timing->bucket[index]++;
-    timing->count++;
-    timing->last = microseconds;
-    timing->sum += microseconds;
-    timing->max = fmax(timing->max, microseconds);
+    histogram->bucket[index]++;
+    histogram->count++;
+    histogram->last = microseconds;
+    histogram->sum += microseconds;
+    histogram->max = fmax(histogram->max, microseconds);
 }
 
-double timing_quantile(const struct timing *timing, double quantile)
+double duration_histogram_quantile(const struct duration_histogram *histogram, double quantile)
 {
-    double wanted = quantile * (double)timing->count;
+    double wanted = quantile * (double)histogram->count;
     uint64_t below = 0;
 
-    for (int i = 0; i < TIMING_BUCKETS; i++) {
-        below += timing->bucket[i];
+    for (int i = 0; i < DURATION_HISTOGRAM_BUCKETS; i++) {
+        below += histogram->bucket[i];
         if ((double)below >= wanted && below > 0)
-            return fmin(least * pow(growth, i), timing->max);
+            return fmin(least * pow(growth, i), histogram->max);
     }
-    return timing->max;
+    return histogram->max;
 }
 
-double timing_mean(const struct timing *timing)
+double duration_histogram_mean(const struct duration_histogram *histogram)
 {
-    return timing->count > 0 ? timing->sum / (double)timing->count : 0;
+    return histogram->count > 0 ? histogram->sum / (double)histogram->count : 0;
 }

@@ -4,20 +4,20 @@
 
 #include <stdint.h>
 
-#define TIMING_BUCKETS 512
+#define DURATION_HISTOGRAM_BUCKETS 512
 
 /* Buckets grow by 5 % each, from 0.1 us to some hours. */
-struct timing {
+struct duration_histogram {
     double last, sum, max; /* us */
     uint64_t count;
-    uint32_t bucket[TIMING_BUCKETS];
+    uint32_t bucket[DURATION_HISTOGRAM_BUCKETS];
 };
 
-void timing_add(struct timing *timing, double microseconds);
+void duration_histogram_add(struct duration_histogram *histogram, double microseconds);
 
 /* Upper end of the bucket in which the quantile (0 .. 1) lies, at most the maximum; us. */
-double timing_quantile(const struct timing *timing, double quantile);
+double duration_histogram_quantile(const struct duration_histogram *histogram, double quantile);
 
-double timing_mean(const struct timing *timing);
+double duration_histogram_mean(const struct duration_histogram *histogram);
 
 #endif

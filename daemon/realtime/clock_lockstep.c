@@ -84,7 +84,7 @@ static void step_lockstep(struct step *step, struct due_observations *waiting)
     step->inputs.state_age = 0;
     step_take_requests(step);
     step_decide(step, state->utime);
-    timing_add(&step->compute, (double)(bus_monotonic_us() - begin));
+    duration_histogram_add(&step->compute, (double)(bus_monotonic_us() - begin));
     learn_quota(step);
     step_report(step, state->utime);
 }

@@ -71,11 +71,11 @@ static void step_real_time(struct step *step, int64_t due, int64_t period)
     int64_t learn_until = woken + (int64_t)(learning_share * (double)period);
     int64_t now = bus_utime();
 
-    timing_add(&step->wakeup, (double)(woken - due) * 1e-3);
+    duration_histogram_add(&step->wakeup, (double)(woken - due) * 1e-3);
     take_inputs(step);
     step->inputs.robot_rests = (double)(woken - due) * 1e-9 > step->config->loop_stall;
     step_decide(step, now);
-    timing_add(&step->compute, (double)(monotonic_ns() - woken) * 1e-3);
+    duration_histogram_add(&step->compute, (double)(monotonic_ns() - woken) * 1e-3);
     while (monotonic_ns() < learn_until && tick_learn(step->tick))
         ;
     step_report(step, now);

@@ -36,12 +36,12 @@ void step_report(struct step *step, int64_t now)
 
     tick_report(step->tick, now, &step->outputs);
     status->compute_us = step->compute.last;
-    status->compute_mean_us = timing_mean(&step->compute);
-    status->compute_p999_us = timing_quantile(&step->compute, 0.999);
+    status->compute_mean_us = duration_histogram_mean(&step->compute);
+    status->compute_p999_us = duration_histogram_quantile(&step->compute, 0.999);
     status->compute_max_us = step->compute.max;
     status->wakeup_us = step->wakeup.last;
-    status->wakeup_mean_us = timing_mean(&step->wakeup);
-    status->wakeup_p999_us = timing_quantile(&step->wakeup, 0.999);
+    status->wakeup_mean_us = duration_histogram_mean(&step->wakeup);
+    status->wakeup_p999_us = duration_histogram_quantile(&step->wakeup, 0.999);
     status->wakeup_max_us = step->wakeup.max;
     status->page_faults = thread_page_faults() - step->page_faults;
     status->overruns = step->overruns;

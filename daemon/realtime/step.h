@@ -25,7 +25,7 @@ struct step {
     struct received_state received; /* newest state taken from the mailbox */
     bool any_state;
 
-    struct timing compute, wakeup;
+    struct duration_histogram compute, wakeup;
     int64_t overruns, slips, bad_states;
     int64_t page_faults; /* before the first tick */
     int overruns_in_a_row;
