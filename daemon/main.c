@@ -239,7 +239,7 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
                        arguments->configuration.n_overrides, error, error_size);
 }
 
-static int work(struct reachd *reachd, char *error, size_t error_size)
+static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
     if (reachd->arguments.replay || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
@@ -258,7 +258,8 @@ int main(int argc, char **argv)
     if (status >= 0)
         return status;
     log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
-    status = load_config(&reachd, error, sizeof error) || work(&reachd, error, sizeof error);
+    status =
+        load_config(&reachd, error, sizeof error) || replay_or_run(&reachd, error, sizeof error);
     if (status)
         log_error("%s", error);
     tear_down(&reachd);

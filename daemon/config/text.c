@@ -11,7 +11,8 @@
 enum { LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
 
 /* As --set takes it. A text stands in quotes, since YAML would take some characters otherwise. */
-static void line(const struct option_row *row, const struct config *config, char out[LINE_SIZE])
+static void write_row(const struct option_row *row, const struct config *config,
+                      char out[LINE_SIZE])
 {
     char value[OPTION_TEXT_SIZE];
     bool list = row->type == OPTION_LIST || row->type == OPTION_SPREAD;
@@ -40,7 +41,7 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
 
     text[0] = '\0';
     for (const struct option_row *row = config_table(); row->name; row++) {
-        line(row, config, next);
+        write_row(row, config, next);
         used += snprintf(text + used, (size_t)(CONFIG_TEXT_SIZE - used), "%s\n", next);
         if (used >= CONFIG_TEXT_SIZE)
             return -1;

@@ -14,7 +14,7 @@ enum { CONFIG_CHECKSUM_AT = 24, CONFIG_TEXT_AT = CONFIG_CHECKSUM_AT + 4 + 48 };
 
 static struct event_log event_log;
 
-static void check(void *user, struct tick_outputs *outputs)
+static void check_outputs(void *user, struct tick_outputs *outputs)
 {
     (void)user;
     for (int i = 0; outputs->has_command && i < 16; i++)
@@ -43,7 +43,7 @@ static void make_right(const char *channel, unsigned char *data, size_t size)
 
 static void replay_made_right(const char *path)
 {
-    const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check};
+    const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check_outputs};
     struct replay *replay = replay_create(&settings);
     struct event event;
     char error[512] = "";
