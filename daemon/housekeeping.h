@@ -1,5 +1,5 @@
 /* Housekeeping in the main thread: signals, warnings, the service manager. The model has a thread
- * of its own for the disk, keeper.h. */
+ * of its own for the disk, disk_thread.h. */
 #ifndef REACH_DAEMON_HOUSEKEEPING_H
 #define REACH_DAEMON_HOUSEKEEPING_H
 

@@ -9,7 +9,7 @@
 #include "daemon/realtime/loop.h"
 #include "daemon/realtime/watchdog.h"
 #include "daemon/replay/player.h"
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include "common/bus/open.h"
 #include "common/program/log.h"

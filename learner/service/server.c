@@ -4,7 +4,7 @@
 #include "common/program/log.h"
 #include "common/program/notify.h"
 #include "learner/service/bus.h"
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include <errno.h>
 #include <semaphore.h>

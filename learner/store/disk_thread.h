@@ -1,7 +1,7 @@
 /* The thread that keeps the model on disk. It alone waits for the disk, so that signals are
  * answered and the service manager hears of us while a write takes long or hangs. */
-#ifndef REACH_LEARNER_STORE_KEEPER_H
-#define REACH_LEARNER_STORE_KEEPER_H
+#ifndef REACH_LEARNER_STORE_DISK_THREAD_H
+#define REACH_LEARNER_STORE_DISK_THREAD_H
 
 #include "learner/store/store.h"
 

@@ -1,4 +1,4 @@
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include "common/base/thread.h"
 
