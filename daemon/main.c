@@ -34,7 +34,7 @@ struct reachd {
     struct daemon_bus *bus;
     struct watchdog *watchdog;
     struct loop *loop;
-    struct keeper keeper;
+    struct disk_thread disk;
 };
 
 static bool is_real_time(const struct reachd *reachd)
@@ -182,7 +182,7 @@ static int keep_model(struct reachd *reachd, char *error, size_t error_size)
 
     if (is_real_time(reachd))
         model_store_unlock_memory(store);
-    if (keeper_start(&reachd->keeper, store, error, error_size) == 0)
+    if (disk_thread_start(&reachd->disk, store, error, error_size) == 0)
         return 0;
     stop_threads(reachd);
     return -1;
@@ -204,7 +204,7 @@ static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
     housekeeping.reload = &reachd->reload;
     housekeeping_run(&housekeeping);
     stop_threads(reachd);
-    keeper_stop(&reachd->keeper);
+    disk_thread_stop(&reachd->disk);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
     return 0;
 }
