@@ -1,6 +1,6 @@
 #include "daemon/arguments.h"
 
-#include "daemon/config/config.h"
+#include "daemon/config/table.h"
 
 #include "common/bus/open.h"
 

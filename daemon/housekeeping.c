@@ -11,7 +11,7 @@ static const int period_ms = 20;
 static const int64_t announce_us = 1000000;
 static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
 
-static sigset_t house_signals(void)
+static sigset_t housekeeping_signals(void)
 {
     sigset_t signals;
 
@@ -22,36 +22,36 @@ static sigset_t house_signals(void)
     return signals;
 }
 
-void house_take_signals(void)
+void housekeeping_take_signals(void)
 {
-    sigset_t signals = house_signals();
+    sigset_t signals = housekeeping_signals();
 
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
 }
 
-static void say_what_is_awaited(struct house *house)
+static void say_what_is_awaited(struct housekeeping *housekeeping)
 {
     int64_t now = bus_monotonic_us();
 
-    if (loop_waits(house->loop) != LOOP_WAITS_FOR_OBSERVATION) {
-        house->waiting_since = 0;
+    if (loop_waits(housekeeping->loop) != LOOP_WAITS_FOR_OBSERVATION) {
+        housekeeping->waiting_since = 0;
         return;
     }
-    if (!house->waiting_since)
-        house->waiting_since = now;
-    if (now - house->waiting_since > patience_us && now - house->said > patience_us) {
+    if (!housekeeping->waiting_since)
+        housekeeping->waiting_since = now;
+    if (now - housekeeping->waiting_since > patience_us && now - housekeeping->said > patience_us) {
         log_warning("waiting for the marker (or END_EFFECTOR) that is due: is vision running?");
-        house->said = now;
+        housekeeping->said = now;
     }
 }
 
-static void say_fault(struct house *house)
+static void say_fault(struct housekeeping *housekeeping)
 {
-    int8_t fault = house->status.fault;
+    int8_t fault = housekeeping->status.fault;
 
-    if (fault == house->fault)
+    if (fault == housekeeping->fault)
         return;
-    house->fault = fault;
+    housekeeping->fault = fault;
     if (fault == REACH_STATUS_T_FAULT_NONE)
         log_warning("the fault was reset");
     else
@@ -59,49 +59,51 @@ static void say_fault(struct house *house)
                   status_fault_word(fault));
 }
 
-static void tell_service(struct house *house)
+static void tell_service_manager(struct housekeeping *housekeeping)
 {
-    while (mailbox_take(daemon_bus_reports(house->bus), &house->status)) {
-        house->any_status = true;
-        say_fault(house);
+    while (mailbox_take(daemon_bus_reports(housekeeping->bus), &housekeeping->status)) {
+        housekeeping->any_status = true;
+        say_fault(housekeeping);
     }
-    service_keep(&house->service, bus_monotonic_us(), loop_ticks(house->loop),
-                 loop_waits(house->loop) != LOOP_RUNS, house->any_status ? &house->status : NULL);
+    service_manager_tell(&housekeeping->service_manager, bus_monotonic_us(),
+                         loop_ticks(housekeeping->loop),
+                         loop_waits(housekeeping->loop) != LOOP_RUNS,
+                         housekeeping->any_status ? &housekeeping->status : NULL);
 }
 
-static void read_configuration_again(struct house *house)
+static void read_configuration_again(struct housekeeping *housekeeping)
 {
     notify_send("RELOADING=1");
-    reload_configuration(house->reload, house->bus, house->loop);
+    reload_configuration(housekeeping->reload, housekeeping->bus, housekeeping->loop);
     notify_send("READY=1");
 }
 
 /* Again and again, so that a log has it whenever it was begun. */
-static void say_configuration(struct house *house)
+static void say_configuration(struct housekeeping *housekeeping)
 {
     int64_t now = bus_monotonic_us();
 
-    if (house->announced && now - house->announced < announce_us)
+    if (housekeeping->announced && now - housekeeping->announced < announce_us)
         return;
-    house->announced = now;
-    daemon_bus_send_config(house->bus, house->reload->accepted);
+    housekeeping->announced = now;
+    daemon_bus_send_config(housekeeping->bus, housekeeping->reload->accepted);
 }
 
-void house_keep(struct house *house)
+void housekeeping_run(struct housekeeping *housekeeping)
 {
     const struct timespec period = {.tv_nsec = (long)period_ms * 1000000};
-    sigset_t signals = house_signals();
+    sigset_t signals = housekeeping_signals();
 
-    service_begin(&house->service);
+    service_manager_begin(&housekeeping->service_manager);
     for (;;) {
         int signal = sigtimedwait(&signals, NULL, &period);
         if (signal == SIGINT || signal == SIGTERM)
             break;
         if (signal == SIGHUP)
-            read_configuration_again(house);
-        say_what_is_awaited(house);
-        say_configuration(house);
-        tell_service(house);
+            read_configuration_again(housekeeping);
+        say_what_is_awaited(housekeeping);
+        say_configuration(housekeeping);
+        tell_service_manager(housekeeping);
     }
-    service_end();
+    service_manager_end();
 }

@@ -1,5 +1,5 @@
-/* Housekeeping in the main thread: signals, warnings, the service manager. The disk has a thread of
- * its own, keeper.h. */
+/* Housekeeping in the main thread: signals, warnings, the service manager. The model has a thread
+ * of its own for the disk, disk_thread.h. */
 #ifndef REACH_DAEMON_HOUSEKEEPING_H
 #define REACH_DAEMON_HOUSEKEEPING_H
 
@@ -10,11 +10,11 @@
 
 #include <stdint.h>
 
-struct house {
+struct housekeeping {
     struct loop *loop;
     struct daemon_bus *bus;
     struct reload *reload;
-    struct service service;
+    struct service_manager service_manager;
     reach_status_t status; /* the newest */
     bool any_status;
     int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
@@ -23,10 +23,10 @@ struct house {
     int64_t announced;     /* when the bus was last told the configuration, monotonic us */
 };
 
-/* Blocks the signals that house_keep receives. To be called before any thread starts. */
-void house_take_signals(void);
+/* Blocks the signals that housekeeping_run receives. To be called before any thread starts. */
+void housekeeping_take_signals(void);
 
 /* Keeps house until SIGINT or SIGTERM asks to end. */
-void house_keep(struct house *house);
+void housekeeping_run(struct housekeeping *housekeeping);
 
 #endif

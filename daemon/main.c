@@ -3,14 +3,14 @@
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "daemon/housekeeping.h"
 #include "daemon/model_of_store.h"
 #include "daemon/realtime/loop.h"
 #include "daemon/realtime/watchdog.h"
 #include "daemon/replay/player.h"
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -36,7 +36,7 @@ struct reachd {
     struct daemon_bus *bus;
     struct watchdog *watchdog;
     struct loop *loop;
-    struct keeper keeper;
+    struct disk_thread disk;
 };
 
 static bool is_real_time(const struct reachd *reachd)
@@ -50,13 +50,13 @@ static int open_bus(struct reachd *reachd, char *error, size_t error_size)
 {
     bool real_time = is_real_time(reachd);
 
-    realtime_limit_memory();
-    if (real_time && realtime_enter(REALTIME_PRIORITY_BUS, error, error_size))
+    thread_limit_memory();
+    if (real_time && thread_enter(THREAD_PRIORITY_BUS, error, error_size))
         return -1;
     reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
     if (!reachd->lcm)
         return -1;
-    return real_time ? realtime_enter(0, error, error_size) : 0;
+    return real_time ? thread_enter(0, error, error_size) : 0;
 }
 
 /* Another daemon on this bus would steer the same robot. */
@@ -196,29 +196,29 @@ static int keep_model(struct reachd *reachd, char *error, size_t error_size)
 {
     if (is_real_time(reachd))
         model_store_unlock_memory(reachd->store);
-    if (keeper_start(&reachd->keeper, reachd->store, error, error_size) == 0)
+    if (disk_thread_start(&reachd->disk, reachd->store, error, error_size) == 0)
         return 0;
     stop_threads(reachd);
     return -1;
 }
 
-static int run(struct reachd *reachd, char *error, size_t error_size)
+static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct house house = {0};
+    struct housekeeping housekeeping = {0};
 
     reachd->reload = reload_of(reachd);
-    house_take_signals();
+    housekeeping_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
         start_threads(reachd, error, error_size) || keep_model(reachd, error, error_size))
         return -1;
     log_info("ready");
-    house.loop = reachd->loop;
-    house.bus = reachd->bus;
-    house.reload = &reachd->reload;
-    house_keep(&house);
+    housekeeping.loop = reachd->loop;
+    housekeeping.bus = reachd->bus;
+    housekeeping.reload = &reachd->reload;
+    housekeeping_run(&housekeeping);
     stop_threads(reachd);
-    keeper_stop(&reachd->keeper);
+    disk_thread_stop(&reachd->disk);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
     return 0;
 }
@@ -236,7 +236,7 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
 
     if (arguments->replay)
         return player_play_log(arguments->replay, &settings, error, error_size);
-    house_take_signals();
+    housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
     return player_play_bus(reachd->lcm, &settings, error, error_size);
@@ -253,14 +253,14 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
                        arguments->configuration.n_overrides, error, error_size);
 }
 
-static int work(struct reachd *reachd, char *error, size_t error_size)
+static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
     if (reachd->arguments.replay || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
     if (check_model_directory(&reachd->config, error, error_size))
         return -1;
     return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)
-                                         : run(reachd, error, error_size);
+                                         : run_daemon(reachd, error, error_size);
 }
 
 int main(int argc, char **argv)
@@ -272,7 +272,8 @@ int main(int argc, char **argv)
     if (status >= 0)
         return status;
     log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
-    status = load_config(&reachd, error, sizeof error) || work(&reachd, error, sizeof error);
+    status =
+        load_config(&reachd, error, sizeof error) || replay_or_run(&reachd, error, sizeof error);
     if (status)
         log_error("%s", error);
     tear_down(&reachd);

@@ -1,14 +1,10 @@
-/* Reading the configuration again while the daemon runs: whole and checked, or not at all.
- *
- * Gains, wanted limits and behaviours may change from one tick to the next. What memory, model or
- * safety were built on may not; an option is of that kind unless reload.c names it. */
-#ifndef REACH_RELOAD_H
-#define REACH_RELOAD_H
+/* Reading the configuration again while the daemon runs: whole and checked, or not at all. */
+#ifndef REACH_DAEMON_RELOAD_H
+#define REACH_DAEMON_RELOAD_H
 
+#include "daemon/bus/bus.h"
 #include "daemon/config/config.h"
 #include "daemon/realtime/loop.h"
-
-#include <stdbool.h>
 
 struct reload {
     /* What the daemon was started with; the caller's. */
@@ -21,11 +17,6 @@ struct reload {
     struct config read;
     const struct config *used; /* the loop works with this one, as far as housekeeping knows */
 };
-
-/* Whether the loop may go over from one configuration to the other. Counts in `changes` what
- * differs; false with one line in `error` that names the option that forbids it. */
-bool reload_allowed(const struct config *from, const struct config *to, int *changes, char *error,
-                    size_t error_size);
 
 /* Housekeeping thread: reads all again, says so on the bus and offers it to the loop, which takes
  * it before its next tick; or logs why not, and the old one stays. */

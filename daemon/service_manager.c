@@ -6,13 +6,14 @@
 
 static const int64_t line_period = 1000000; /* us */
 
-void service_begin(struct service *service)
+void service_manager_begin(struct service_manager *manager)
 {
-    *service = (struct service){.watchdog = notify_watchdog_open()};
+    *manager = (struct service_manager){.watchdog = notify_watchdog_open()};
     notify_send("READY=1\nSTATUS=waiting for the robot");
 }
 
-void service_line(const reach_status_t *status, char *line, size_t size)
+/* The line on a status, for people. */
+static void write_line(const reach_status_t *status, char *line, size_t size)
 {
     snprintf(line, size,
              "%s, %s (%s) %d of %d; %lld samples, %d experts; worst tick %.0f us, %lld overruns",
@@ -22,22 +23,22 @@ void service_line(const reach_status_t *status, char *line, size_t size)
              (long long)status->overruns);
 }
 
-void service_keep(struct service *service, int64_t now, int64_t ticks, bool waits,
-                  const reach_status_t *status)
+void service_manager_tell(struct service_manager *manager, int64_t now, int64_t ticks, bool waits,
+                          const reach_status_t *status)
 {
     char line[256];
 
-    if (ticks != service->ticks || waits)
-        notify_watchdog_feed(&service->watchdog, now);
-    service->ticks = ticks;
-    if (!status || now - service->told < line_period)
+    if (ticks != manager->ticks || waits)
+        notify_watchdog_feed(&manager->watchdog, now);
+    manager->ticks = ticks;
+    if (!status || now - manager->told < line_period)
         return;
-    service->told = now;
-    service_line(status, line, sizeof line);
+    manager->told = now;
+    write_line(status, line, sizeof line);
     notify_send("STATUS=%s", line);
 }
 
-void service_end(void)
+void service_manager_end(void)
 {
     notify_send("STOPPING=1\nSTATUS=stopping the arm");
 }

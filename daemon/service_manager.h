@@ -7,28 +7,24 @@
 
 #include <reach_status_t.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
-struct service {
+struct service_manager {
     struct notify_watchdog watchdog;
     int64_t ticks; /* at the last look */
     int64_t told;  /* when the last line went out, monotonic us */
 };
 
 /* The loop runs: READY=1. */
-void service_begin(struct service *service);
+void service_manager_begin(struct service_manager *manager);
 
 /* To be called often. Feeds the manager's watchdog when `ticks` has moved, or `waits`: in lockstep
  * a loop stands rightly while the simulator holds the clock. Sends a line on `status`, NULL when
  * there is none, at most once a second. `now` is monotonic, us. */
-void service_keep(struct service *service, int64_t now, int64_t ticks, bool waits,
-                  const reach_status_t *status);
+void service_manager_tell(struct service_manager *manager, int64_t now, int64_t ticks, bool waits,
+                          const reach_status_t *status);
 
 /* The daemon has begun to end. */
-void service_end(void);
-
-/* The line on a status, for people. Public for tests. */
-void service_line(const reach_status_t *status, char *line, size_t size);
+void service_manager_end(void);
 
 #endif

@@ -22,7 +22,7 @@ int bus_receiver_start(struct bus_receiver *receiver, lcm_t *lcm, const char *na
     receiver->lcm = lcm;
     receiver->name = name;
     atomic_store_explicit(&receiver->ending, false, memory_order_relaxed);
-    return realtime_thread(&receiver->thread, priority, receive, receiver, error, error_size);
+    return thread_start(&receiver->thread, priority, receive, receiver, error, error_size);
 }
 
 void bus_receiver_stop(struct bus_receiver *receiver)

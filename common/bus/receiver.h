@@ -16,7 +16,7 @@ struct bus_receiver {
 };
 
 /* Starts it on `lcm`, which stays the caller's, as does `name`, of 15 letters at most; `priority`
- * as realtime_thread takes it. Returns 0, or -1 with one line in `error`. */
+ * as thread_start takes it. Returns 0, or -1 with one line in `error`. */
 int bus_receiver_start(struct bus_receiver *receiver, lcm_t *lcm, const char *name, int priority,
                        char *error, size_t error_size);
 

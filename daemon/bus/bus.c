@@ -1,5 +1,6 @@
 #include "daemon/bus/bus.h"
 
+#include "common/base/checksum.h"
 #include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "common/bus/receiver.h"
@@ -67,7 +68,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     struct received_state received = {.received = bus_monotonic_us()};
 
     (void)channel;
-    received.checksum = incoming_checksum(message->data, message->data_size);
+    received.checksum = checksum_crc32(message->data, message->data_size);
     if (incoming_state(message->data, message->data_size, &received.state))
         deliver(bus, bus->states, &received);
     else
@@ -90,7 +91,7 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 {
     struct daemon_bus *bus = user;
     struct received_request received = {.checksum =
-                                            incoming_checksum(message->data, message->data_size)};
+                                            checksum_crc32(message->data, message->data_size)};
 
     (void)channel;
     if (!incoming_request(message->data, message->data_size, &received.request)) {
@@ -163,11 +164,11 @@ static void *send(void *user)
 
 int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size)
 {
-    int priority = real_time ? REALTIME_PRIORITY_BUS : 0;
+    int priority = real_time ? THREAD_PRIORITY_BUS : 0;
 
     if (bus_receiver_start(&bus->receiver, bus->lcm, "reachd-receive", priority, error, error_size))
         return -1;
-    return realtime_thread(&bus->sender, priority, send, bus, error, error_size);
+    return thread_start(&bus->sender, priority, send, bus, error, error_size);
 }
 
 void daemon_bus_stop(struct daemon_bus *bus)

@@ -1,6 +1,6 @@
 #include "daemon/config/check.h"
 
-#include "daemon/control/limits/safety.h"
+#include "daemon/config/sizes.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* The daemon's configuration: one struct, one table row per option (table.c). */
+/* The daemon's configuration: one struct, which load.h fills from one row per option (table.c). */
 #ifndef REACH_DAEMON_CONFIG_CONFIG_H
 #define REACH_DAEMON_CONFIG_CONFIG_H
 
@@ -6,9 +6,7 @@
 #include "daemon/config/space.h"
 #include "learner/learner.h"
 
-#include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 /* Angles in radians, times in seconds, image distances in pixels. */
 struct config {
@@ -69,21 +67,11 @@ struct config {
     int model_snapshot, model_keep;
     double model_sync; /* s */
 
-    /* What follows from the rows above. */
+    /* What follows from the rows above (derived.c). */
     struct option_list babble_min, babble_max; /* rad */
     struct space space; /* the rows that depend on task.space, as it wants them */
     uint32_t checksum;  /* of all rows as text (config/text.h) */
 };
-
-/* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks
- * each option and checks them against each other.
- *   returns 0, or -1 with one line in `error`. */
-int config_load(struct config *config, const char *const *paths, int n_paths,
-                const char *const *overrides, int n_overrides, char *error, size_t error_size);
-
-/* The table, and its reference for --help-options. */
-const struct option_row *config_table(void);
-void config_print_options(FILE *out);
 
 /* Numbers of joints. The arm's come first in states and commands. */
 static inline int config_arm_joints(const struct config *config)

@@ -1,11 +1,7 @@
-#include "daemon/config/config.h"
+#include "daemon/config/table.h"
 
-#include "daemon/config/check.h"
-#include "daemon/config/space.h"
-#include "daemon/config/text.h"
 #include "learner/parameter_rows.h"
 
-#include <math.h>
 #include <string.h>
 
 /* What one tick can touch of the learner's memory. */
@@ -198,9 +194,7 @@ const struct option_row *config_table(void)
     return table;
 }
 
-/* What the learner's rows hold where no file names them: its own defaults for the Kobian's sizes,
- * with experts that span the workspace, so that a tool is an expert. */
-static void preset(struct config *config)
+void config_preset(struct config *config)
 {
     memset(config, 0, sizeof *config);
     config->learner = learner_config_default(4, SPACE_DIMENSIONS);
@@ -214,135 +208,6 @@ void config_print_options(FILE *out)
 {
     struct config config;
 
-    preset(&config);
+    config_preset(&config);
     options_print(table, &config, out);
-}
-
-static void set_visual(struct config *config)
-{
-    const double per_pixel = 1 / config->pixels_per_radian;
-
-    config->space = (struct space){
-        .kind = SPACE_VISUAL,
-        .n_head = 2,
-        .fixates = true,
-        .unit = {-per_pixel, per_pixel, 1},
-        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
-        .noise = {config->learner_noise_angle, config->learner_noise_angle,
-                  config->learner_noise_disparity},
-        .norm = {config->lwpr_norm_angle, config->lwpr_norm_angle, config->lwpr_norm_disparity},
-        .largest = 10000, /* px: no image is so large */
-    };
-}
-
-static void set_cartesian(struct config *config)
-{
-    config->space = (struct space){.kind = SPACE_CARTESIAN, .largest = 100 /* m: no arm is */};
-    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
-        config->space.unit[row] = 1;
-        config->space.scale[row] = config->scale_position;
-        config->space.noise[row] = config->learner_noise_position;
-        config->space.norm[row] = config->lwpr_norm_position;
-    }
-}
-
-/* Nobody has said which part of the range is of use: all of it, and babbling finds out. */
-static void set_babble_range(struct config *config)
-{
-    config->babble_min = config->babble_min_given;
-    config->babble_max = config->babble_max_given;
-    if (config->babble_min.n > 0 || config->babble_max.n > 0)
-        return;
-    config->babble_min = config->arm_min;
-    config->babble_max = config->arm_max;
-    for (int i = 0; i < config_arm_joints(config); i++) {
-        config->babble_min.value[i] += config->margin;
-        config->babble_max.value[i] -= config->margin;
-    }
-}
-
-static void set_space(struct config *config)
-{
-    if (config->task_space == SPACE_CARTESIAN)
-        set_cartesian(config);
-    else
-        set_visual(config);
-}
-
-static int set_checksum(struct config *config, char *error, size_t error_size)
-{
-    char text[CONFIG_TEXT_SIZE];
-
-    if (config_text(config, text) < 0) {
-        snprintf(error, error_size, "the configuration as text has more than %d bytes",
-                 CONFIG_TEXT_SIZE - 1);
-        return -1;
-    }
-    config->checksum = config_text_checksum(text);
-    return 0;
-}
-
-int config_load(struct config *config, const char *const *paths, int n_paths,
-                const char *const *overrides, int n_overrides, char *error, size_t error_size)
-{
-    char reason[320];
-
-    preset(config);
-    if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
-        return -1;
-    set_space(config);
-    set_babble_range(config);
-    if (config_check(config, reason, sizeof reason)) {
-        snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
-        return -1;
-    }
-    return set_checksum(config, error, error_size);
-}
-
-struct joint_limits config_joint_limits(const struct config *config, int joint)
-{
-    int n_arm = config_arm_joints(config);
-
-    if (joint < n_arm)
-        return (struct joint_limits){
-            .min = config->arm_min.value[joint],
-            .max = config->arm_max.value[joint],
-            .velocity = config->arm_velocity,
-            .acceleration = config->arm_acceleration,
-            .safety_velocity = config->safety_arm_velocity,
-            .safety_acceleration = config->safety_arm_acceleration,
-        };
-    return (struct joint_limits){
-        .min = config->head_min.value[joint - n_arm],
-        .max = config->head_max.value[joint - n_arm],
-        .velocity = config->head_velocity,
-        .acceleration = config->head_acceleration,
-        .safety_velocity = config->safety_head_velocity,
-        .safety_acceleration = config->safety_head_acceleration,
-    };
-}
-
-static double square(double x)
-{
-    return x * x;
-}
-
-struct learner_config config_learner(const struct config *config)
-{
-    struct learner_config learner = config->learner;
-
-    learner.kind = (enum learner_kind)config->learner_kind;
-    learner.n_inputs = config_arm_joints(config);
-    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
-        learner.psi0[row] = square(config->space.noise[row]);
-        learner.lwpr.norm_out[row] = config->space.norm[row];
-    }
-    for (int i = 0; i < learner.n_inputs; i++) {
-        learner.reference[i] = config->learner_reference.value[i];
-        learner.scale[i] = config->learner_scale;
-        learner.sigma0[i] = square(config->learner_reach);
-    }
-    if (learner.lwpr.max_projections > learner.n_inputs)
-        learner.lwpr.max_projections = learner.n_inputs;
-    return learner;
 }

@@ -1,6 +1,7 @@
 #include "daemon/replay/replay.h"
 
 #include "common/base/big_endian.h"
+#include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/control/trace.h"
 #include "daemon/replay/replay_private.h"
@@ -200,7 +201,7 @@ static int decode_trace(struct replay *replay, const void *data, size_t size, ch
     if (size < 8 || (int64_t)big_endian(data, 8) != fingerprint)
         return another_version("REACH_TRACE", replay->position, error, error_size);
     if (size == covered + 4 && reach_trace_t_decode(data, 0, (int)size, trace) == (int)size &&
-        (uint32_t)trace->checksum == incoming_checksum(data, covered) && is_sound(trace))
+        (uint32_t)trace->checksum == checksum_crc32(data, covered) && is_sound(trace))
         return 0;
     snprintf(error, error_size,
              "byte %lld: the checksum of this REACH_TRACE is wrong; the log was altered",

@@ -1,7 +1,8 @@
 /* The beginning of a run: the configuration and the model that it had. */
 #include "daemon/replay/replay_private.h"
 
-#include "daemon/reload.h"
+#include "daemon/config/load.h"
+#include "daemon/config/reloadable.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -71,7 +72,7 @@ int replay_follow_config(struct replay *replay, char *error, size_t error_size)
     config = load_config(replay, error, error_size);
     if (!config)
         return -1;
-    if (!reload_allowed(replay->used, config, &changes, reason, sizeof reason))
+    if (!config_reloadable(replay->used, config, &changes, reason, sizeof reason))
         return replay_fail(replay, error, error_size, "%s", reason);
     replay->used = replay->inputs.config = config;
     return 0;

@@ -2,7 +2,7 @@
  * through. Whatever comes, commands are finite and within the limits of the safety gate. */
 #include "common/bus/open.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "fake_lcm.h"
 #include "harness.h"
@@ -19,7 +19,7 @@ static struct fake_lcm_channel channels[5];
 static struct config config;
 static struct arena *arena;
 
-static void check(const reach_robot_command_t *command)
+static void check_command(const reach_robot_command_t *command)
 {
     for (int i = 0; i < config_joints(&config); i++)
         HARNESS_REQUIRE(fabs(command->velocity[i]) <=
@@ -51,7 +51,7 @@ static void begin(void)
 }
 
 /* As the loop does it in real time. */
-static void take(struct daemon_bus *bus, struct tick_inputs *inputs)
+static void take_arrived(struct daemon_bus *bus, struct tick_inputs *inputs)
 {
     struct received_state received;
     struct received_request asked;
@@ -87,10 +87,10 @@ static void hear(struct daemon_bus *bus, struct tick *tick, const uint8_t *data,
         size_t used = fake_lcm_deliver_next(channels, 5, data, size);
         data += used;
         size -= used;
-        take(bus, &inputs);
+        take_arrived(bus, &inputs);
         tick_decide(tick, &inputs, now += 20000, &outputs);
         if (outputs.has_command)
-            check(&outputs.command);
+            check_command(&outputs.command);
         tick_learn(tick);
         tick_report(tick, now, &outputs);
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/base/random.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "daemon/model_of_store.h"
 #include "tools/bench/fake_robot.h"

@@ -20,13 +20,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("common", "daemon", "learner")  # what the loop is made of
-ENTRY = "daemon/realtime/loop.c:run"
+ENTRY = "daemon/realtime/loop.c:run_loop"
 # Called before the first tick alone; what they call does not count.
 AT_START = {
     "pthread_self",
     "pthread_setname_np",
-    "realtime_enter",
-    "realtime_touch_stack",
+    "thread_enter",
+    "thread_touch_stack",
     "confine_thread",
 }
 # Of the libraries, and what each may take of the stack; bytes, generously.
@@ -211,7 +211,7 @@ def sources() -> list[dict]:
 def limit() -> int:
     """What thread.h says is touched at start."""
     text = (ROOT / "common/base/thread.h").read_text()
-    words = re.search(r"REALTIME_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
+    words = re.search(r"THREAD_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
     return int(words[1]) * int(words[2])
 
 

@@ -124,7 +124,7 @@ static int take_track(void *user, const char *text, char *error, size_t error_si
 }
 
 static const struct argument_row rows[] = {
-    ARGUMENT_CALL("learner", "KIND", take_learner, "imle, lwpr, or null, which learns nothing"),
+    ARGUMENT_CALL("learner", "KIND", take_learner, "imle or lwpr"),
     ARGUMENT_INT("inputs", "d", struct request, n_inputs, 1, LEARNER_MAX_INPUTS,
                  "numbers of the input in a row, 1 .. 16"),
     ARGUMENT_INT("outputs", "D", struct request, n_outputs, 1, LEARNER_MAX_OUTPUTS,

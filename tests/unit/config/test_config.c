@@ -1,4 +1,6 @@
 /* The shipped configuration, and what is refused although each option alone is in range. */
+#include "daemon/config/load.h"
+#include "daemon/config/table.h"
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
 

@@ -1,6 +1,7 @@
 #include "fixture.h"
 
 #include "common/base/arena.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 
 #include <check.h>

@@ -1,5 +1,6 @@
 /* Whatever the loop tells the control step, by chance here, a replay of what was recorded repeats.
  */
+#include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
@@ -65,7 +66,7 @@ static void hear_state(void)
 
     say("ROBOT_STATE", bytes, size);
     inputs.has_state = true;
-    inputs.state_checksum = incoming_checksum(bytes, (size_t)size);
+    inputs.state_checksum = checksum_crc32(bytes, (size_t)size);
     ck_assert(incoming_state(bytes, (size_t)size, &inputs.state));
 }
 
@@ -91,7 +92,7 @@ static void hear_request(reach_request_t request)
     int size = reach_request_t_encode(bytes, 0, sizeof bytes, &request);
 
     say("REACH_REQUEST", bytes, size);
-    inputs.request_checksum[inputs.n_requests] = incoming_checksum(bytes, (size_t)size);
+    inputs.request_checksum[inputs.n_requests] = checksum_crc32(bytes, (size_t)size);
     ck_assert(incoming_request(bytes, (size_t)size, &inputs.request[inputs.n_requests++]));
 }
 

@@ -39,53 +39,53 @@ static const char *heard(void)
 
 START_TEST(test_ready_and_end)
 {
-    struct service service;
+    struct service_manager service;
 
     play_manager();
-    service_begin(&service);
+    service_manager_begin(&service);
     ck_assert_str_eq(heard(), "READY=1\nSTATUS=waiting for the robot");
-    service_end();
+    service_manager_end();
     ck_assert_str_eq(heard(), "STOPPING=1\nSTATUS=stopping the arm");
 }
 END_TEST
 
 START_TEST(test_fed_only_while_the_loop_advances)
 {
-    struct service service;
+    struct service_manager service;
     int64_t now = 1000000;
 
     play_manager();
-    service_begin(&service);
+    service_manager_begin(&service);
     heard();
     for (int64_t ticks = 1; ticks <= 20; ticks++, now += 20000)
-        service_keep(&service, now, ticks, false, NULL);
+        service_manager_tell(&service, now, ticks, false, NULL);
     for (int i = 0; i < 4; i++) /* 400 ms, every 100 ms of 200 */
         ck_assert_str_eq(heard(), "WATCHDOG=1");
     ck_assert_str_eq(heard(), "");
     for (int i = 0; i < 100; i++, now += 20000) {
-        service_keep(&service, now, 20, false, NULL);
+        service_manager_tell(&service, now, 20, false, NULL);
         ck_assert_str_eq(heard(), "");
     }
-    service_keep(&service, now, 21, false, NULL);
+    service_manager_tell(&service, now, 21, false, NULL);
     ck_assert_str_eq(heard(), "WATCHDOG=1");
 }
 END_TEST
 
 START_TEST(test_fed_while_the_simulator_holds_the_clock)
 {
-    struct service service;
+    struct service_manager service;
 
     play_manager();
-    service_begin(&service);
+    service_manager_begin(&service);
     heard();
-    service_keep(&service, 1000000, 0, true, NULL);
+    service_manager_tell(&service, 1000000, 0, true, NULL);
     ck_assert_str_eq(heard(), "WATCHDOG=1");
 }
 END_TEST
 
 START_TEST(test_line_for_people_once_a_second)
 {
-    struct service service;
+    struct service_manager service;
     reach_status_t status = {.state = REACH_STATUS_T_ACTIVE,
                              .behaviour = REACH_STATUS_T_BABBLE,
                              .phase = REACH_STATUS_T_FIXATE,
@@ -98,14 +98,14 @@ START_TEST(test_line_for_people_once_a_second)
 
     play_manager();
     unsetenv("WATCHDOG_USEC");
-    service_begin(&service);
+    service_manager_begin(&service);
     heard();
-    service_keep(&service, 2000000, 1, false, &status);
+    service_manager_tell(&service, 2000000, 1, false, &status);
     ck_assert_str_eq(heard(), "STATUS=active, babble (fixate) 12 of 60; 123 samples, 5 experts; "
                               "worst tick 830 us, 2 overruns");
-    service_keep(&service, 2999999, 2, false, &status);
+    service_manager_tell(&service, 2999999, 2, false, &status);
     ck_assert_str_eq(heard(), "");
-    service_keep(&service, 3000000, 3, false, &status);
+    service_manager_tell(&service, 3000000, 3, false, &status);
     ck_assert_str_ne(heard(), "");
 }
 END_TEST
@@ -116,5 +116,5 @@ int main(void)
                                   test_fed_while_the_simulator_holds_the_clock,
                                   test_line_for_people_once_a_second};
 
-    return SUITE_RUN("service", tests);
+    return SUITE_RUN("service_manager", tests);
 }

@@ -1,7 +1,7 @@
-/* The thread that keeps the model on disk. It alone waits for the disk, so that signals are
+/* The thread that keeps the model on disk. It alone waits for that disk, so that signals are
  * answered and the service manager hears of us while a write takes long or hangs. */
-#ifndef REACH_LEARNER_STORE_KEEPER_H
-#define REACH_LEARNER_STORE_KEEPER_H
+#ifndef REACH_LEARNER_STORE_DISK_THREAD_H
+#define REACH_LEARNER_STORE_DISK_THREAD_H
 
 #include "learner/store/store.h"
 
@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-struct keeper {
+struct disk_thread {
     struct model_store *store;
     /* Called by the thread after each look at the store, NULL: nobody cares. Set before the start.
      */
@@ -23,12 +23,13 @@ struct keeper {
 };
 
 /* Returns 0, or -1 with one line in `error`. */
-int keeper_start(struct keeper *keeper, struct model_store *store, char *error, size_t error_size);
+int disk_thread_start(struct disk_thread *disk, struct model_store *store, char *error,
+                      size_t error_size);
 
 /* Lets it look at the store at once; it does so every 20 ms anyway. For any thread. */
-void keeper_wake(struct keeper *keeper);
+void disk_thread_wake(struct disk_thread *disk);
 
 /* Ends the thread after what it is at; the store may then be closed. */
-void keeper_stop(struct keeper *keeper);
+void disk_thread_stop(struct disk_thread *disk);
 
 #endif

@@ -1,5 +1,5 @@
 /* What may change while the daemon runs, and what not. */
-#include "daemon/reload.h"
+#include "daemon/config/reloadable.h"
 
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
@@ -20,7 +20,7 @@ START_TEST(test_gains_and_limits_may_change)
     from = fixture_config(NULL, 0);
     for (size_t i = 0; i < sizeof allowed / sizeof allowed[0]; i++) {
         to = fixture_config(&allowed[i], 1);
-        ck_assert_msg(reload_allowed(&from, &to, &changes, error, sizeof error), "%s", error);
+        ck_assert_msg(config_reloadable(&from, &to, &changes, error, sizeof error), "%s", error);
         ck_assert_int_eq(changes, 1);
     }
 }
@@ -40,7 +40,7 @@ START_TEST(test_what_was_built_on_may_not)
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         snprintf(name, sizeof name, "%.*s", (int)strcspn(refused[i], "="), refused[i]);
         to = fixture_config(&refused[i], 1);
-        ck_assert(!reload_allowed(&from, &to, &changes, error, sizeof error));
+        ck_assert(!config_reloadable(&from, &to, &changes, error, sizeof error));
         ck_assert_ptr_nonnull(strstr(error, name));
         ck_assert_ptr_nonnull(strstr(error, "restart"));
     }
@@ -54,7 +54,7 @@ START_TEST(test_the_same_is_no_change)
 
     from = fixture_config(NULL, 0);
     to = fixture_config(NULL, 0);
-    ck_assert(reload_allowed(&from, &to, &changes, error, sizeof error));
+    ck_assert(config_reloadable(&from, &to, &changes, error, sizeof error));
     ck_assert_int_eq(changes, 0);
 }
 END_TEST
@@ -64,5 +64,5 @@ int main(void)
     const TTest *const tests[] = {test_gains_and_limits_may_change, test_what_was_built_on_may_not,
                                   test_the_same_is_no_change};
 
-    return SUITE_RUN("reload", tests);
+    return SUITE_RUN("reloadable", tests);
 }
