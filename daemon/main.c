@@ -5,7 +5,7 @@
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
 #include "daemon/control/tick.h"
-#include "daemon/housekeeping.h"
+#include "daemon/housekeeping/housekeeping.h"
 #include "daemon/model_of_store.h"
 #include "daemon/realtime/loop.h"
 #include "daemon/realtime/watchdog.h"

@@ -1,6 +1,6 @@
 #include "daemon/config/table.h"
 
-#include "learner/parameter_rows.h"
+#include "learner/parameters/rows.h"
 
 #include <string.h>
 

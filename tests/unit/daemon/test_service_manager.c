@@ -1,5 +1,5 @@
 /* What the service manager hears of the daemon; the manager is a socket of ours. */
-#include "daemon/service_manager.h"
+#include "daemon/housekeeping/service_manager.h"
 
 #include "tests/unit/suite.h"
 

@@ -1,12 +1,12 @@
 /* Housekeeping in the main thread: signals, warnings, the service manager. The model has a thread
  * of its own for the disk, disk_thread.h. */
-#ifndef REACH_DAEMON_HOUSEKEEPING_H
-#define REACH_DAEMON_HOUSEKEEPING_H
+#ifndef REACH_DAEMON_HOUSEKEEPING_HOUSEKEEPING_H
+#define REACH_DAEMON_HOUSEKEEPING_HOUSEKEEPING_H
 
 #include "daemon/bus/bus.h"
+#include "daemon/housekeeping/reload.h"
+#include "daemon/housekeeping/service_manager.h"
 #include "daemon/realtime/loop.h"
-#include "daemon/reload.h"
-#include "daemon/service_manager.h"
 
 #include <stdint.h>
 

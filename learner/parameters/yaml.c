@@ -1,4 +1,4 @@
-#include "learner/yaml.h"
+#include "learner/parameters/yaml.h"
 
 #include <stdio.h>
 

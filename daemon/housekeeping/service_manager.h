@@ -1,7 +1,7 @@
 /* What the service manager hears of the daemon: that it is ready, that its loop advances, and a
  * line on how it goes. For the thread that keeps house. */
-#ifndef REACH_DAEMON_SERVICE_MANAGER_H
-#define REACH_DAEMON_SERVICE_MANAGER_H
+#ifndef REACH_DAEMON_HOUSEKEEPING_SERVICE_MANAGER_H
+#define REACH_DAEMON_HOUSEKEEPING_SERVICE_MANAGER_H
 
 #include "common/program/notify.h"
 

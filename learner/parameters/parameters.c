@@ -4,7 +4,7 @@
 #include "learner/base/hash.h"
 #include "learner/base/ranges.h"
 #include "learner/kind.h"
-#include "learner/parameter_rows.h"
+#include "learner/parameters/rows.h"
 
 struct learner_config learner_config_default(int n_inputs, int n_outputs)
 {

@@ -1,6 +1,6 @@
 /* Reading the configuration again while the daemon runs: whole and checked, or not at all. */
-#ifndef REACH_DAEMON_RELOAD_H
-#define REACH_DAEMON_RELOAD_H
+#ifndef REACH_DAEMON_HOUSEKEEPING_RELOAD_H
+#define REACH_DAEMON_HOUSEKEEPING_RELOAD_H
 
 #include "daemon/bus/bus.h"
 #include "daemon/config/config.h"

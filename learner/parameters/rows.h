@@ -6,8 +6,8 @@
  *
  * What has a number for each input or output (reference, scale, sigma0, psi0, lwpr.norm_out) is not
  * here: people write it in other units for a robot than for recorded samples. */
-#ifndef REACH_LEARNER_PARAMETER_ROWS_H
-#define REACH_LEARNER_PARAMETER_ROWS_H
+#ifndef REACH_LEARNER_PARAMETERS_ROWS_H
+#define REACH_LEARNER_PARAMETERS_ROWS_H
 
 #include <math.h>
 

@@ -2,13 +2,13 @@
  * input or output, in YAML without a prefix: "degree: 4", "psi0: [1e-4, 1e-4, 9]". For programs
  * that know no robot: reach-eval, reach-learner. Such a program's own struct begins with a struct
  * learner_options, and its table with LEARNER_OPTION_ROWS. */
-#ifndef REACH_LEARNER_YAML_H
-#define REACH_LEARNER_YAML_H
+#ifndef REACH_LEARNER_PARAMETERS_YAML_H
+#define REACH_LEARNER_PARAMETERS_YAML_H
 
 #include <stddef.h>
 
 #include "learner/learner.h"
-#include "learner/parameter_rows.h"
+#include "learner/parameters/rows.h"
 
 #ifdef __cplusplus
 extern "C" {

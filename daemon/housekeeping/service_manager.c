@@ -1,4 +1,4 @@
-#include "daemon/service_manager.h"
+#include "daemon/housekeeping/service_manager.h"
 
 #include "common/bus/status_words.h"
 

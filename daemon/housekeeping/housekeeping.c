@@ -1,4 +1,4 @@
-#include "daemon/housekeeping.h"
+#include "daemon/housekeeping/housekeeping.h"
 
 #include "common/bus/open.h"
 #include "common/bus/status_words.h"

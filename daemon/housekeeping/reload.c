@@ -1,4 +1,4 @@
-#include "daemon/reload.h"
+#include "daemon/housekeeping/reload.h"
 
 #include "common/program/log.h"
 #include "daemon/config/load.h"
