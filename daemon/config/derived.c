@@ -2,17 +2,18 @@
 
 static void set_visual(struct config *config)
 {
-    const double per_pixel = 1 / config->pixels_per_radian;
+    const double per_pixel = 1 / config->eyes_pixels_per_radian;
 
     config->space = (struct space){
         .kind = SPACE_VISUAL,
         .n_head = 2,
         .fixates = true,
         .unit = {-per_pixel, per_pixel, 1},
-        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
+        .scale = {config->task_scale_angle, config->task_scale_angle, config->task_scale_disparity},
         .noise = {config->learner_noise_angle, config->learner_noise_angle,
                   config->learner_noise_disparity},
-        .norm = {config->lwpr_norm_angle, config->lwpr_norm_angle, config->lwpr_norm_disparity},
+        .norm = {config->learner_lwpr_norm_angle, config->learner_lwpr_norm_angle,
+                 config->learner_lwpr_norm_disparity},
         .largest = 10000, /* px: no image is so large */
     };
 }
@@ -22,9 +23,9 @@ static void set_cartesian(struct config *config)
     config->space = (struct space){.kind = SPACE_CARTESIAN, .largest = 100 /* m: no arm is */};
     for (int row = 0; row < SPACE_DIMENSIONS; row++) {
         config->space.unit[row] = 1;
-        config->space.scale[row] = config->scale_position;
+        config->space.scale[row] = config->task_scale_position;
         config->space.noise[row] = config->learner_noise_position;
-        config->space.norm[row] = config->lwpr_norm_position;
+        config->space.norm[row] = config->learner_lwpr_norm_position;
     }
 }
 
@@ -46,8 +47,8 @@ static void set_babble_range(struct config *config)
     config->babble_min = config->arm_min;
     config->babble_max = config->arm_max;
     for (int i = 0; i < config_arm_joints(config); i++) {
-        config->babble_min.value[i] += config->margin;
-        config->babble_max.value[i] -= config->margin;
+        config->babble_min.value[i] += config->motion_margin;
+        config->babble_max.value[i] -= config->motion_margin;
     }
 }
 
@@ -65,16 +66,16 @@ struct joint_limits config_joint_limits(const struct config *config, int joint)
         return (struct joint_limits){
             .min = config->arm_min.value[joint],
             .max = config->arm_max.value[joint],
-            .velocity = config->arm_velocity,
-            .acceleration = config->arm_acceleration,
+            .velocity = config->motion_arm_velocity,
+            .acceleration = config->motion_arm_acceleration,
             .safety_velocity = config->safety_arm_velocity,
             .safety_acceleration = config->safety_arm_acceleration,
         };
     return (struct joint_limits){
         .min = config->head_min.value[joint - n_arm],
         .max = config->head_max.value[joint - n_arm],
-        .velocity = config->head_velocity,
-        .acceleration = config->head_acceleration,
+        .velocity = config->motion_head_velocity,
+        .acceleration = config->motion_head_acceleration,
         .safety_velocity = config->safety_head_velocity,
         .safety_acceleration = config->safety_head_acceleration,
     };

@@ -168,9 +168,9 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
     if (tick->state_known)
         set |= CONDITION_STATE_KNOWN;
-    if (tick->state_age <= tick->config->state_hold)
+    if (tick->state_age <= tick->config->safety_state_hold)
         set |= CONDITION_STATE_FRESH;
-    if (tick->state_age <= tick->config->state_suspend)
+    if (tick->state_age <= tick->config->safety_state_suspend)
         set |= CONDITION_STATE_ALIVE;
     if (tick->behaviour.ops)
         set |= CONDITION_BUSY;

@@ -36,7 +36,7 @@ static void take_inputs(struct step *step)
                         &inputs->observation[inputs->n_observations]))
         inputs->n_observations++;
     step_take_requests(step);
-    inputs->overrunning = step->overruns_in_a_row >= step->config->overruns_fault;
+    inputs->overrunning = step->overruns_in_a_row >= step->config->safety_overruns_fault;
 }
 
 static int64_t monotonic_ns(void)
@@ -65,7 +65,7 @@ static void step_real_time(struct step *step, int64_t due, int64_t period)
 
     duration_histogram_add(&step->wakeup, (double)(woken - due) * 1e-3);
     take_inputs(step);
-    step->inputs.robot_rests = (double)(woken - due) * 1e-9 > step->config->loop_stall;
+    step->inputs.robot_rests = (double)(woken - due) * 1e-9 > step->config->safety_loop_stall;
     step_decide(step, now);
     duration_histogram_add(&step->compute, (double)(monotonic_ns() - woken) * 1e-3);
     while (monotonic_ns() < learn_until && tick_learn(step->tick))

@@ -120,8 +120,8 @@ static void brake(struct watchdog *watchdog)
 static void look_at_loop(struct watchdog *watchdog)
 {
     int64_t now = bus_monotonic_us();
-    int64_t patience =
-        watchdog->brakes ? (int64_t)(watchdog->config->loop_stall * 1e6) : lockstep_patience_us;
+    int64_t patience = watchdog->brakes ? (int64_t)(watchdog->config->safety_loop_stall * 1e6)
+                                        : lockstep_patience_us;
     int64_t beats = atomic_load_explicit(&watchdog->beats, memory_order_acquire);
     bool stalled = stall_seen(&watchdog->stall, beats, patience, now) || confine_violation() >= 0;
 

@@ -39,8 +39,8 @@ static void present(struct coordinate *coordinate, const struct senses *senses,
     space_to_task(&config->space, target, turn);
     for (int i = 0; i < HEAD_JOINTS; i++)
         coordinate->head_goal[i] =
-            fmin(fmax(q_head[i] + turn[i], config->head_min.value[i] + config->margin),
-                 config->head_max.value[i] - config->margin);
+            fmin(fmax(q_head[i] + turn[i], config->head_min.value[i] + config->motion_margin),
+                 config->head_max.value[i] - config->motion_margin);
 }
 
 /* Equation 13: the head's velocity fed forward, the marker's image error fed back. */
@@ -51,7 +51,7 @@ static void follow(const struct senses *senses, struct wants *wants, double disp
     const double centre[SPACE_DIMENSIONS] = {0, 0, disparity};
     double x_velocity[SPACE_DIMENSIONS];
 
-    control_approach(senses, wants, centre, config->follow_gain, x_velocity);
+    control_approach(senses, wants, centre, config->task_follow_gain, x_velocity);
     for (int i = 0; i < HEAD_JOINTS; i++)
         x_velocity[i] += head_velocity[i];
     control_task_velocity(senses, wants, x_velocity);

@@ -43,7 +43,7 @@ void control_task_velocity(const struct senses *senses, struct wants *wants,
 
     for (int i = 0; i < config_arm_joints(config); i++)
         middle[i] = 0.5 * (config->arm_min.value[i] + config->arm_max.value[i]);
-    control_task_velocity_by(senses, wants, x_velocity, middle, config->secondary_gain);
+    control_task_velocity_by(senses, wants, x_velocity, middle, config->task_secondary_gain);
 }
 
 void control_task_velocity_by(const struct senses *senses, struct wants *wants,
@@ -54,8 +54,8 @@ void control_task_velocity_by(const struct senses *senses, struct wants *wants,
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
         .n_outputs = SPACE_DIMENSIONS,
-        .threshold = config->singular_threshold,
-        .damping_max = config->damping_max,
+        .threshold = config->task_singular_threshold,
+        .damping_max = config->task_damping_max,
         .secondary_gain = gain,
     };
 

@@ -49,7 +49,7 @@ static double allowed(const struct safety *safety, int joint, double sign, doubl
 {
     const struct config *config = safety->config;
     double most = config_joint_limits(config, joint).safety_acceleration;
-    int late = (int)ceil(config->latency / config->period - 1e-9) + 1;
+    int late = (int)ceil(config->safety_latency / config->period - 1e-9) + 1;
     double fastest = 0;
 
     if (safety->since + late > SAFETY_RECENT)
@@ -58,9 +58,9 @@ static double allowed(const struct safety *safety, int joint, double sign, doubl
         room -= way(safety, joint, sign, k);
     for (int k = 0; k < safety->since + late; k++)
         fastest = fmax(fastest, way(safety, joint, sign, k));
-    return fmin(stoppable(room - late * fastest, config->period + config->latency, most),
+    return fmin(stoppable(room - late * fastest, config->period + config->safety_latency, most),
                 stoppable(room - way(safety, joint, sign, safety->since),
-                          config->period + config->reaction, most));
+                          config->period + config->safety_reaction, most));
 }
 
 static double gate_joint(const struct safety *safety, int joint, double q, double velocity)

@@ -95,7 +95,7 @@ static double joint_spread(const struct sight *sight, int n, int joint)
         least = fmin(least, value);
         greatest = fmax(greatest, value);
     }
-    return (greatest - least) * sight->config->pixels_per_radian;
+    return (greatest - least) * sight->config->eyes_pixels_per_radian;
 }
 
 int sight_pair_frames(const struct config *config)

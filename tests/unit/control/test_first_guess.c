@@ -86,7 +86,7 @@ static void turn_to_guess(struct targets *targets, const struct senses *senses, 
         memcpy(targets->setpoint, senses->sight->carried, sizeof targets->setpoint);
     } else if (use == POSTURE) {
         control_approach(senses, wants, targets->setpoint, config->task_gain, velocity);
-        control_task_velocity_by(senses, wants, velocity, guess, config->secondary_gain);
+        control_task_velocity_by(senses, wants, velocity, guess, config->task_secondary_gain);
     }
 }
 

@@ -66,8 +66,8 @@ START_TEST(it_learns_where_to_babble)
     struct fake_robot robot;
     int first, later;
 
-    ck_assert_double_eq_tol(config.babble_max.value[3], config.arm_max.value[3] - config.margin,
-                            1e-12);
+    ck_assert_double_eq_tol(config.babble_max.value[3],
+                            config.arm_max.value[3] - config.motion_margin, 1e-12);
     fake_robot_init(&robot, &config);
     robot.q[0] = -1.1;
     robot.q[3] = -1.1;
