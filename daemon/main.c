@@ -3,13 +3,14 @@
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
-#include "daemon/housekeeping.h"
+#include "daemon/housekeeping/housekeeping.h"
+#include "daemon/model_of_store.h"
 #include "daemon/realtime/loop.h"
 #include "daemon/realtime/watchdog.h"
 #include "daemon/replay/player.h"
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -30,11 +31,12 @@ struct reachd {
     lcm_t *lcm;
     struct bus_claim *claim;
     struct arena *arena;
+    struct model_store *store;
     struct tick *tick;
     struct daemon_bus *bus;
     struct watchdog *watchdog;
     struct loop *loop;
-    struct keeper keeper;
+    struct disk_thread disk;
 };
 
 static bool is_real_time(const struct reachd *reachd)
@@ -48,13 +50,13 @@ static int open_bus(struct reachd *reachd, char *error, size_t error_size)
 {
     bool real_time = is_real_time(reachd);
 
-    realtime_limit_memory();
-    if (real_time && realtime_enter(REALTIME_PRIORITY_BUS, error, error_size))
+    thread_limit_memory();
+    if (real_time && thread_enter(THREAD_PRIORITY_BUS, error, error_size))
         return -1;
     reachd->lcm = bus_open(reachd->arguments.url, error, error_size);
     if (!reachd->lcm)
         return -1;
-    return real_time ? realtime_enter(0, error, error_size) : 0;
+    return real_time ? thread_enter(0, error, error_size) : 0;
 }
 
 /* Another daemon on this bus would steer the same robot. */
@@ -87,20 +89,35 @@ static int check_model_directory(const struct config *config, char *error, size_
     return -1;
 }
 
+/* The control step, and who keeps its model, from which it goes on. */
+static int build_tick(struct reachd *reachd, char *error, size_t error_size)
+{
+    const struct model_store_settings settings = model_of_store_settings(&reachd->config);
+    struct tick_settings tick = {.config = &reachd->config};
+
+    reachd->store = model_store_create(&settings, reachd->arena, error, error_size);
+    if (!reachd->store)
+        return -1;
+    tick.model = model_of_store(reachd->store);
+    reachd->tick = tick_create(&tick, reachd->arena, error, error_size);
+    if (!reachd->tick)
+        return -1;
+    return model_store_open(reachd->store, tick_learner(reachd->tick), error, error_size);
+}
+
 /* All memory of the loop, in one piece. */
 static int build(struct reachd *reachd, char *error, size_t error_size)
 {
     bool lockstep = reachd->arguments.lockstep;
     bool real_time = is_real_time(reachd);
 
-    reachd->arena = arena_create(tick_memory(&reachd->config) + daemon_bus_memory() +
-                                 watchdog_memory() + loop_memory());
+    reachd->arena = arena_create(tick_memory(&reachd->config) + model_store_memory() +
+                                 daemon_bus_memory() + watchdog_memory() + loop_memory());
     if (!reachd->arena) {
         snprintf(error, error_size, "out of memory");
         return -1;
     }
-    reachd->tick = tick_create(&reachd->config, reachd->arena, error, error_size);
-    if (!reachd->tick || tick_open_model(reachd->tick, error, error_size))
+    if (build_tick(reachd, error, error_size))
         return -1;
     reachd->bus =
         daemon_bus_create(reachd->lcm, reachd->config.space.kind, reachd->arena, error, error_size);
@@ -122,8 +139,7 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
 
 static void tear_down(struct reachd *reachd)
 {
-    if (reachd->tick)
-        model_store_close(tick_model_store(reachd->tick));
+    model_store_close(reachd->store);
     if (reachd->lcm)
         lcm_destroy(reachd->lcm);
     bus_claim_free(reachd->claim);
@@ -141,7 +157,7 @@ static struct reload reload_of(const struct reachd *reachd)
 
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = tick_store_settings(config);
+    const struct model_store_settings settings = model_of_store_settings(config);
 
     if (model_store_check(&settings, error, error_size))
         return -1;
@@ -178,33 +194,31 @@ static void stop_threads(struct reachd *reachd)
 
 static int keep_model(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct model_store *store = tick_model_store(reachd->tick);
-
     if (is_real_time(reachd))
-        model_store_unlock_memory(store);
-    if (keeper_start(&reachd->keeper, store, error, error_size) == 0)
+        model_store_unlock_memory(reachd->store);
+    if (disk_thread_start(&reachd->disk, reachd->store, error, error_size) == 0)
         return 0;
     stop_threads(reachd);
     return -1;
 }
 
-static int run(struct reachd *reachd, char *error, size_t error_size)
+static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
 {
-    struct house house = {0};
+    struct housekeeping housekeeping = {0};
 
     reachd->reload = reload_of(reachd);
-    house_take_signals();
+    housekeeping_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
         start_threads(reachd, error, error_size) || keep_model(reachd, error, error_size))
         return -1;
     log_info("ready");
-    house.loop = reachd->loop;
-    house.bus = reachd->bus;
-    house.reload = &reachd->reload;
-    house_keep(&house);
+    housekeeping.loop = reachd->loop;
+    housekeeping.bus = reachd->bus;
+    housekeeping.reload = &reachd->reload;
+    housekeeping_run(&housekeeping);
     stop_threads(reachd);
-    keeper_stop(&reachd->keeper);
+    disk_thread_stop(&reachd->disk);
     log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
     return 0;
 }
@@ -221,11 +235,11 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
     };
 
     if (arguments->replay)
-        return loop_replay_log(arguments->replay, &settings, error, error_size);
-    house_take_signals();
+        return player_play_log(arguments->replay, &settings, error, error_size);
+    housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
-    return loop_replay_bus(reachd->lcm, &settings, error, error_size);
+    return player_play_bus(reachd->lcm, &settings, error, error_size);
 }
 
 static int load_config(struct reachd *reachd, char *error, size_t error_size)
@@ -239,14 +253,14 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
                        arguments->configuration.n_overrides, error, error_size);
 }
 
-static int work(struct reachd *reachd, char *error, size_t error_size)
+static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
     if (reachd->arguments.replay || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
     if (check_model_directory(&reachd->config, error, error_size))
         return -1;
     return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)
-                                         : run(reachd, error, error_size);
+                                         : run_daemon(reachd, error, error_size);
 }
 
 int main(int argc, char **argv)
@@ -258,7 +272,8 @@ int main(int argc, char **argv)
     if (status >= 0)
         return status;
     log_open("reachd", reachd.arguments.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
-    status = load_config(&reachd, error, sizeof error) || work(&reachd, error, sizeof error);
+    status =
+        load_config(&reachd, error, sizeof error) || replay_or_run(&reachd, error, sizeof error);
     if (status)
         log_error("%s", error);
     tear_down(&reachd);

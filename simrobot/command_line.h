@@ -3,30 +3,27 @@
 #define SIMROBOT_COMMAND_LINE_H
 
 #include <cstdint>
-#include <string>
-#include <vector>
+
+#include "common/options/command_line.h"
 
 namespace sim
 {
 
-enum class Task { run, help, help_options, renderer, version };
-
+/* Texts are argv's; nullptr where nothing was given. */
 struct CommandLine {
-    Task task = Task::run;
-    std::string config, url, truth_url, snapshot;
-    std::vector<const char *> overrides;
+    const char *config = nullptr, *url = nullptr, *truth_url = nullptr, *snapshot = nullptr;
+    const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
+    int n_overrides = 0;
     bool lockstep = true;
-    bool hold = false, send_truth = true, eyes = true, verbose = false;
+    bool hold = false, send_truth = true, eyes = true, renderer = false, verbose = false;
     int64_t seed = 1;
     int64_t bench_eyes = 0;
     int64_t tool = 0; /* in the hand at the start */
 };
 
 /* Reads the arguments.
- *   returns false when they are wrong, having said why on stderr. */
-bool command_line_parse(int argc, char **argv, CommandLine *line);
-
-const char *command_line_help();
+ *   returns -1 to go on, or the status to exit with, all having been said. */
+int command_line_parse(int argc, char **argv, CommandLine *given);
 
 } // namespace sim
 #endif

@@ -7,13 +7,12 @@
 #include "common/bus/open.h"
 #include "common/program/log.h"
 #include "common/program/notify.h"
-#include "common/program/version.h"
 #include "simrobot/command_line.h"
 #include "simrobot/eyes/egl_context.h"
 #include "simrobot/eyes/eye_thread.h"
+#include "simrobot/eyes/tasks.h"
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
-#include "simrobot/tasks.h"
 
 namespace
 {
@@ -63,12 +62,12 @@ std::vector<std::string> joint_names(const sim::Rig &rig)
 }
 
 /* On the bus until the end. */
-bool run(const sim::CommandLine &line, const sim::Config &config, sim::Simulation &simulation,
-         std::string *error)
+bool run_on_bus(const sim::CommandLine &line, const sim::Config &config,
+                sim::Simulation &simulation, std::string *error)
 {
     auto seed = static_cast<uint64_t>(line.seed);
-    std::unique_ptr<sim::SimBus> bus = sim::SimBus::open(line.url.c_str(), line.truth_url.c_str(),
-                                                         joint_names(simulation.rig()), error);
+    std::unique_ptr<sim::SimBus> bus =
+        sim::SimBus::open(line.url, line.truth_url, joint_names(simulation.rig()), error);
     std::unique_ptr<sim::EyeThread> eyes;
     sim::ClockControl control;
 
@@ -103,24 +102,23 @@ bool start(const sim::CommandLine &line, std::string *error)
     sim::Rig rig;
     auto seed = static_cast<uint64_t>(line.seed);
 
-    if (!sim::config_load(&config, line.config.c_str(), line.overrides.data(),
-                          static_cast<int>(line.overrides.size()), error) ||
+    if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
         !sim::rig_load(config, &rig, error))
         return false;
     sim::Simulation simulation(config, rig, seed);
     if (!simulation.set_tool(static_cast<int>(line.tool))) {
-        *error = line.config + ": there is no tool " + std::to_string(line.tool);
+        *error = std::string(line.config) + ": there is no tool " + std::to_string(line.tool);
         return false;
     }
     if (!rig.has_eyes && line.bench_eyes) {
-        *error = line.config + ": this robot has no eyes";
+        *error = std::string(line.config) + ": this robot has no eyes";
         return false;
     }
     if (line.bench_eyes)
         return sim::eye_task_bench(config, simulation, seed, line.bench_eyes, error);
-    if (!line.snapshot.empty())
+    if (line.snapshot)
         return sim::eye_task_snapshot(config, simulation, seed, line.snapshot, error);
-    return run(line, config, simulation, error);
+    return run_on_bus(line, config, simulation, error);
 }
 
 int name_renderer()
@@ -139,25 +137,13 @@ int main(int argc, char **argv)
     sim::CommandLine line;
     std::string error;
 
-    if (!sim::command_line_parse(argc, argv, &line))
-        return 2;
+    int status = sim::command_line_parse(argc, argv, &line);
+    if (status >= 0)
+        return status;
     log_open("reach-simrobot", line.verbose ? LOG_LEVEL_DEBUG : LOG_LEVEL_INFO);
     catch_signals();
-    switch (line.task) {
-    case sim::Task::help:
-        fputs(sim::command_line_help(), stdout);
-        return 0;
-    case sim::Task::help_options:
-        sim::config_print_options(stdout);
-        return 0;
-    case sim::Task::version:
-        printf("reach-simrobot %s\n", reach_version);
-        return 0;
-    case sim::Task::renderer:
+    if (line.renderer)
         return name_renderer();
-    case sim::Task::run:
-        break;
-    }
     if (start(line, &error))
         return 0;
     log_error("%s", error.c_str());

@@ -2,7 +2,7 @@
 #ifndef VISION_ARGUMENTS_H
 #define VISION_ARGUMENTS_H
 
-#include <vector>
+#include "common/options/command_line.h"
 
 /* Texts point into argv; nullptr where nothing was given. */
 struct arguments {
@@ -11,16 +11,15 @@ struct arguments {
     const char *stats = nullptr;
     const char *bench = nullptr;
     const char *draw = nullptr;
-    const char *left = nullptr; /* with `cameras` or `videos` */
-    const char *right = nullptr;
-    bool cameras = false;
-    bool videos = false;
+    const char *cameras[2] = {nullptr, nullptr}; /* left and right */
+    const char *videos[2] = {nullptr, nullptr};
     bool show = false;
-    std::vector<const char *> overrides;
+    const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
+    int n_overrides = 0;
 };
 
 /* Reads the command line. Help and version are printed here, as are complaints.
- *   returns -1 to go on, or the exit code to end with. */
+ *   returns -1 to go on, or the status to exit with. */
 int arguments_parse(int argc, char **argv, arguments *given);
 
 #endif

@@ -87,10 +87,11 @@ static std::unique_ptr<source> open_source(const arguments &given, const vision_
     std::unique_ptr<source> pairs;
     char error[512] = "";
 
-    if (given.cameras)
-        pairs = source_cameras(given.left, given.right, eye, receiver, error, sizeof error);
-    else if (given.videos)
-        pairs = source_videos(given.left, given.right, config.video_rate, receiver, error,
+    if (given.cameras[0])
+        pairs =
+            source_cameras(given.cameras[0], given.cameras[1], eye, receiver, error, sizeof error);
+    else if (given.videos[0])
+        pairs = source_videos(given.videos[0], given.videos[1], config.video_rate, receiver, error,
                               sizeof error);
     else
         pairs = source_bus(lcm, "STEREO_IMAGES", receiver, error, sizeof error);
@@ -167,7 +168,7 @@ static int write_stats(const char *path, const statistics &counts)
     return 1;
 }
 
-static int run(const arguments &given, const vision_config &config, lcm_t *lcm)
+static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
 {
     bus_publisher publisher(lcm, given.show);
     observer seer(config_eyes(config), static_cast<int64_t>(config.drop_after * 1e6), &publisher);
@@ -177,7 +178,7 @@ static int run(const arguments &given, const vision_config &config, lcm_t *lcm)
         return 1;
     log_info("ready");
     notify_send("READY=1");
-    int code = serve(pairs.get(), lcm, given.cameras || given.videos, seer.counts());
+    int code = serve(pairs.get(), lcm, given.cameras[0] || given.videos[0], seer.counts());
     report(seer.counts());
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
@@ -201,7 +202,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     else if (taken < 0)
         log_error("LCM failed while asking for other vision processes");
     else
-        code = run(given, config, lcm);
+        code = see(given, config, lcm);
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return code;
@@ -217,8 +218,8 @@ int main(int argc, char **argv)
     if (code >= 0)
         return code;
     log_open("reach-vision", LOG_LEVEL_INFO);
-    if (config_load(&config, given.config, given.overrides.data(),
-                    static_cast<int>(given.overrides.size()), error, sizeof error)) {
+    if (config_load(&config, given.config, given.overrides, given.n_overrides, error,
+                    sizeof error)) {
         log_error("%s", error);
         return 1;
     }

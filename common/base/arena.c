@@ -73,8 +73,3 @@ size_t arena_used(const struct arena *arena)
 {
     return arena->used;
 }
-
-size_t arena_size(const struct arena *arena)
-{
-    return arena->size;
-}

@@ -39,9 +39,8 @@ size_t arena_footprint(size_t bytes);
 /* Locks the arena's whole pages into memory, or lets them go again. Returns 0, or -1 with errno. */
 int arena_lock(struct arena *arena, bool locked);
 
-/* Bytes taken so far, and in all. */
+/* Bytes taken so far. */
 size_t arena_used(const struct arena *arena);
-size_t arena_size(const struct arena *arena);
 
 #ifdef __cplusplus
 }

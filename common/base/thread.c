@@ -8,19 +8,20 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <time.h>
 
-void realtime_limit_memory(void)
+void thread_limit_memory(void)
 {
     pthread_attr_t attributes;
 
     mallopt(M_ARENA_MAX, 1);
     pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, REALTIME_STACK);
+    pthread_attr_setstacksize(&attributes, THREAD_STACK);
     pthread_setattr_default_np(&attributes);
     pthread_attr_destroy(&attributes);
 }
 
-int realtime_lock_memory(char *error, size_t error_size)
+int thread_lock_memory(char *error, size_t error_size)
 {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0)
         return 0;
@@ -47,7 +48,7 @@ static int refused(int priority, int failed, char *error, size_t error_size)
     return -1;
 }
 
-int realtime_enter(int priority, char *error, size_t error_size)
+int thread_enter(int priority, char *error, size_t error_size)
 {
     struct sched_param parameters = {.sched_priority = priority};
     int policy = 0;
@@ -60,8 +61,8 @@ int realtime_enter(int priority, char *error, size_t error_size)
     return 0;
 }
 
-int realtime_thread(pthread_t *thread, int priority, void *(*start)(void *), void *user,
-                    char *error, size_t error_size)
+int thread_start(pthread_t *thread, int priority, void *(*start)(void *), void *user, char *error,
+                 size_t error_size)
 {
     struct sched_param parameters = {.sched_priority = priority};
     /* An ordinary thread of an ordinary one needs no call that a service may have been denied. */
@@ -70,7 +71,7 @@ int realtime_thread(pthread_t *thread, int priority, void *(*start)(void *), voi
     int failed;
 
     pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, REALTIME_STACK);
+    pthread_attr_setstacksize(&attributes, THREAD_STACK);
     pthread_attr_setinheritsched(&attributes,
                                  inherits ? PTHREAD_INHERIT_SCHED : PTHREAD_EXPLICIT_SCHED);
     pthread_attr_setschedpolicy(&attributes, policy_of(priority));
@@ -80,18 +81,26 @@ int realtime_thread(pthread_t *thread, int priority, void *(*start)(void *), voi
     return failed ? refused(priority, failed, error, error_size) : 0;
 }
 
-void realtime_touch_stack(void)
+void thread_touch_stack(void)
 {
-    unsigned char pages[REALTIME_STACK_TOUCHED];
+    unsigned char pages[THREAD_STACK_TOUCHED];
 
     explicit_bzero(pages, sizeof pages);
 }
 
-int64_t realtime_page_faults(void)
+int64_t thread_page_faults(void)
 {
     struct rusage usage;
 
     if (getrusage(RUSAGE_THREAD, &usage))
         return 0;
     return usage.ru_minflt + usage.ru_majflt;
+}
+
+void sleep_until(int64_t ns)
+{
+    const struct timespec due = {.tv_sec = ns / 1000000000, .tv_nsec = ns % 1000000000};
+
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL) == EINTR)
+        ;
 }

@@ -122,8 +122,10 @@ static int set_list(const struct option_row *row, struct option_list *field,
     return 0;
 }
 
-int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
-               bool is_list, char *error, size_t error_size)
+/* Sets one option from the texts of a list, or from the one of a scalar. What is wrong goes to
+ * `error` without file and key. */
+static int set_option(const struct option_row *row, void *target, const char *const *items,
+                      int n_items, bool is_list, char *error, size_t error_size)
 {
     char *field = (char *)target + row->offset;
 
@@ -180,7 +182,7 @@ static int apply_to_table(void *user, const char *name, const char *const *items
     }
     loading->seen_in_file[index] = true;
     loading->given[index] = true;
-    return option_set(row, loading->target, items, n_items, is_list, error, error_size);
+    return set_option(row, loading->target, items, n_items, is_list, error, error_size);
 }
 
 /* Reads "name: value" as YAML, so that defaults and overrides follow the file's own syntax. */

@@ -90,11 +90,6 @@ void option_text(const struct option_row *row, const void *target, char text[OPT
 /* What the row's unit multiplies with on its way from people to the struct: radians in a degree. */
 double option_unit_factor(const struct option_row *row);
 
-/* For options_yaml.c and tests: sets one option from text. `items` texts of a list (or 1 scalar).
- *   returns 0, or -1 with what is wrong (without file and key) in `error`. */
-int option_set(const struct option_row *row, void *target, const char *const *items, int n_items,
-               bool is_list, char *error, size_t error_size);
-
 /* The row of this name, or NULL. */
 const struct option_row *option_find(const struct option_row *table, const char *name);
 

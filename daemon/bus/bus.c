@@ -1,8 +1,9 @@
 #include "daemon/bus/bus.h"
 
+#include "common/base/checksum.h"
 #include "common/base/thread.h"
 #include "common/bus/open.h"
-#include "common/program/log.h"
+#include "common/bus/receiver.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
@@ -21,14 +22,12 @@
 #define OUTGOING 256
 #define REPORTS 4
 
-static const int poll_ms = 100; /* how soon the receiving thread sees that it is to end */
-
 struct daemon_bus {
     lcm_t *lcm;
     struct mailbox *states, *observations, *requests, *outgoing, *reports;
-    sem_t arrived; /* posted for every message that the loop may wait for */
-    sem_t to_send; /* posted for every outgoing message */
-    _Atomic bool ending;
+    sem_t arrived;       /* posted for every message that the loop may wait for */
+    sem_t to_send;       /* posted for every outgoing message */
+    _Atomic bool ending; /* the sending thread */
     _Atomic bool emergency;
     _Atomic int64_t malformed;
     enum space_kind space;
@@ -38,7 +37,8 @@ struct daemon_bus {
     reach_config_t config;        /* the sending thread's while it waits, else the main thread's */
     int64_t configs;              /* the main thread's */
     _Atomic bool config_waits;
-    pthread_t receiver, sender;
+    struct bus_receiver receiver;
+    pthread_t sender;
 };
 
 size_t daemon_bus_memory(void)
@@ -68,7 +68,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     struct received_state received = {.received = bus_monotonic_us()};
 
     (void)channel;
-    received.checksum = incoming_checksum(message->data, message->data_size);
+    received.checksum = checksum_crc32(message->data, message->data_size);
     if (incoming_state(message->data, message->data_size, &received.state))
         deliver(bus, bus->states, &received);
     else
@@ -91,7 +91,7 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 {
     struct daemon_bus *bus = user;
     struct received_request received = {.checksum =
-                                            incoming_checksum(message->data, message->data_size)};
+                                            checksum_crc32(message->data, message->data_size)};
 
     (void)channel;
     if (!incoming_request(message->data, message->data_size, &received.request)) {
@@ -135,17 +135,6 @@ struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct a
     return bus;
 }
 
-static void *receive(void *user)
-{
-    struct daemon_bus *bus = user;
-
-    pthread_setname_np(pthread_self(), "reachd-receive");
-    while (!atomic_load_explicit(&bus->ending, memory_order_relaxed))
-        if (lcm_handle_timeout(bus->lcm, poll_ms) < 0)
-            log_error("the bus failed to receive");
-    return NULL;
-}
-
 /* Before a message that was put after it: the first trace of a configuration comes after that. */
 static void send_waiting_config(struct daemon_bus *bus)
 {
@@ -175,11 +164,11 @@ static void *send(void *user)
 
 int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t error_size)
 {
-    int priority = real_time ? REALTIME_PRIORITY_BUS : 0;
+    int priority = real_time ? THREAD_PRIORITY_BUS : 0;
 
-    if (realtime_thread(&bus->receiver, priority, receive, bus, error, error_size))
+    if (bus_receiver_start(&bus->receiver, bus->lcm, "reachd-receive", priority, error, error_size))
         return -1;
-    return realtime_thread(&bus->sender, priority, send, bus, error, error_size);
+    return thread_start(&bus->sender, priority, send, bus, error, error_size);
 }
 
 void daemon_bus_stop(struct daemon_bus *bus)
@@ -187,7 +176,7 @@ void daemon_bus_stop(struct daemon_bus *bus)
     atomic_store_explicit(&bus->ending, true, memory_order_release);
     sem_post(&bus->to_send);
     pthread_join(bus->sender, NULL);
-    pthread_join(bus->receiver, NULL);
+    bus_receiver_stop(&bus->receiver);
 }
 
 struct mailbox *daemon_bus_states(struct daemon_bus *bus)

@@ -5,9 +5,16 @@
 
 #include "common/base/arena.h"
 #include "common/base/mailbox.h"
-#include "daemon/control/tick.h"
+#include "daemon/config/config.h"
+#include "daemon/control/senses/observation.h"
 
 #include <lcm/lcm.h>
+#include <reach_request_t.h>
+#include <reach_robot_command_t.h>
+#include <reach_robot_state_t.h>
+#include <reach_sample_t.h>
+#include <reach_status_t.h>
+#include <reach_trace_t.h>
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -1,17 +1,13 @@
 #include "daemon/bus/incoming.h"
 
+#include "common/base/checksum.h"
+
 #include <reach_end_effector_t.h>
 #include <reach_marker_t.h>
 #include <string.h>
-#include <zlib.h>
 
 #define DECODE(type, data, size, value)                                                            \
     (type##_decode((data), 0, (int)(size), (value)) == (int)(size))
-
-uint32_t incoming_checksum(const void *data, size_t size)
-{
-    return (uint32_t)crc32(0, (const Bytef *)data, (uInt)size);
-}
 
 bool incoming_state(const void *data, size_t size, reach_robot_state_t *state)
 {
@@ -55,7 +51,7 @@ bool incoming_observation(enum space_kind space, const void *data, size_t size,
                                           : take_marker(data, size, observation);
 
     if (taken)
-        observation->checksum = incoming_checksum(data, size);
+        observation->checksum = checksum_crc32(data, size);
     return taken;
 }
 

@@ -12,9 +12,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* CRC-32 of a message as it is on the bus. */
-uint32_t incoming_checksum(const void *data, size_t size);
-
 bool incoming_state(const void *data, size_t size, reach_robot_state_t *state);
 bool incoming_request(const void *data, size_t size, reach_request_t *request);
 

@@ -1,6 +1,6 @@
 #include "daemon/bus/outgoing.h"
 
-#include "daemon/bus/incoming.h"
+#include "common/base/checksum.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -56,7 +56,7 @@ static void close_tick(struct outgoing_messages *messages, reach_trace_t *trace)
 /* The last field, after all others are encoded. */
 static void seal(unsigned char *bytes, size_t covered)
 {
-    uint32_t checksum = incoming_checksum(bytes, covered);
+    uint32_t checksum = checksum_crc32(bytes, covered);
 
     for (int i = 0; i < 4; i++)
         bytes[covered + (size_t)i] = (unsigned char)(checksum >> (24 - 8 * i));
@@ -75,7 +75,7 @@ int outgoing_encode(struct outgoing_messages *messages, struct outgoing *out)
     if (out->kind == OUTGOING_TRACE)
         seal(messages->bytes, (size_t)size - sizeof(int32_t));
     else
-        messages->checksum[out->kind] = incoming_checksum(messages->bytes, (size_t)size);
+        messages->checksum[out->kind] = checksum_crc32(messages->bytes, (size_t)size);
     if (out->kind == OUTGOING_COMMAND)
         messages->command_seq = out->command.seq;
     return size;

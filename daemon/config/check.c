@@ -1,6 +1,6 @@
 #include "daemon/config/check.h"
 
-#include "daemon/control/limits/safety.h"
+#include "daemon/config/sizes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,43 +45,47 @@ static int check_babble(const struct config *config, char *error, size_t error_s
  * While a joint slows down, its earlier commands were faster by the exponential. */
 static bool gate_is_closer(const struct config *config, double velocity, double acceleration)
 {
-    double late = config->period + config->latency, still = config->period + config->reaction;
-    double longest = fmax(late * (1 + exp(config->slow_down * late)), config->period + still);
+    double late = config->period + config->safety_latency,
+           still = config->period + config->safety_reaction;
+    double longest =
+        fmax(late * (1 + exp(config->motion_slow_down * late)), config->period + still);
 
-    return longest + velocity / (2 * acceleration) > 1 / config->slow_down;
+    return longest + velocity / (2 * acceleration) > 1 / config->motion_slow_down;
 }
 
 static int check_motion(const struct config *config, char *error, size_t error_size)
 {
     const char *wrong = NULL;
 
-    if (config->arm_velocity > config->safety_arm_velocity)
+    if (config->motion_arm_velocity > config->safety_arm_velocity)
         wrong = "motion.arm_velocity exceeds safety.arm_velocity";
-    else if (config->head_velocity > config->safety_head_velocity)
+    else if (config->motion_head_velocity > config->safety_head_velocity)
         wrong = "motion.head_velocity exceeds safety.head_velocity";
-    else if (config->arm_acceleration > config->safety_arm_acceleration)
+    else if (config->motion_arm_acceleration > config->safety_arm_acceleration)
         wrong = "motion.arm_acceleration exceeds safety.arm_acceleration";
-    else if (config->head_acceleration > config->safety_head_acceleration)
+    else if (config->motion_head_acceleration > config->safety_head_acceleration)
         wrong = "motion.head_acceleration exceeds safety.head_acceleration";
-    else if (config->slow_down * config->arm_velocity > config->arm_acceleration ||
-             config->slow_down * config->head_velocity > config->head_acceleration)
+    else if (config->motion_slow_down * config->motion_arm_velocity >
+                 config->motion_arm_acceleration ||
+             config->motion_slow_down * config->motion_head_velocity >
+                 config->motion_head_acceleration)
         wrong = "motion.slow_down times a motion velocity exceeds the motion acceleration: "
                 "slowing down before a joint limit could not be followed";
-    else if (gate_is_closer(config, config->arm_velocity, config->safety_arm_acceleration) ||
-             gate_is_closer(config, config->head_velocity, config->safety_head_acceleration))
+    else if (gate_is_closer(config, config->motion_arm_velocity, config->safety_arm_acceleration) ||
+             gate_is_closer(config, config->motion_head_velocity, config->safety_head_acceleration))
         wrong = "motion.slow_down is too great for safety.reaction, latency and acceleration: "
                 "the safety gate would have to brake before the motion slows down";
-    else if (config->slow_down * config->period > 0.25)
+    else if (config->motion_slow_down * config->period > 0.25)
         wrong = "motion.slow_down is too great for the period: at most 0.25 / period";
-    else if (config->state_suspend < config->state_hold)
+    else if (config->safety_state_suspend < config->safety_state_hold)
         wrong = "safety.state_suspend is below safety.state_hold";
-    else if (config->latency > 0.5 * SAFETY_RECENT * config->period)
+    else if (config->safety_latency > 0.5 * SAFETY_RECENT * config->period)
         wrong = "safety.latency is more than 32 periods";
-    else if (config->reaction < config->loop_stall + config->period - 1e-9)
+    else if (config->safety_reaction < config->safety_loop_stall + config->period - 1e-9)
         wrong =
             "safety.reaction is below safety.loop_stall and a period: a joint could pass its limit "
             "before the watchdog acts";
-    else if (config->search_velocity > config->head_velocity)
+    else if (config->head_search_velocity > config->motion_head_velocity)
         wrong = "head.search_velocity exceeds motion.head_velocity";
     if (wrong)
         snprintf(error, error_size, "%s", wrong);
@@ -97,7 +101,7 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
                      : "head.min and head.max: a Cartesian task space has no head");
         return -1;
     }
-    if (config->space.kind == SPACE_VISUAL && config->pixels_per_radian < 1) {
+    if (config->space.kind == SPACE_VISUAL && config->eyes_pixels_per_radian < 1) {
         snprintf(error, error_size, "eyes.pixels_per_radian must be given, 1 or more");
         return -1;
     }

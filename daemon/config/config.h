@@ -1,4 +1,4 @@
-/* The daemon's configuration: one struct, one table row per option (table.c). */
+/* The daemon's configuration: one struct, which load.h fills from one row per option (table.c). */
 #ifndef REACH_DAEMON_CONFIG_CONFIG_H
 #define REACH_DAEMON_CONFIG_CONFIG_H
 
@@ -6,9 +6,7 @@
 #include "daemon/config/space.h"
 #include "learner/learner.h"
 
-#include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 /* Angles in radians, times in seconds, image distances in pixels. */
 struct config {
@@ -16,24 +14,24 @@ struct config {
 
     struct option_list arm_min, arm_max, head_min, head_max; /* joint range, rad */
 
-    double pixels_per_radian; /* image shift for a turn of the head */
-    double eyes_stale;        /* age at which a marker no longer counts as seen, s */
+    double eyes_pixels_per_radian; /* image shift for a turn of the head */
+    double eyes_stale;             /* age at which a marker no longer counts as seen, s */
 
-    double arm_velocity, arm_acceleration;   /* of wanted motion */
-    double head_velocity, head_acceleration; /* of wanted motion */
-    double margin;                           /* kept from the joint limits, rad */
-    double slow_down;                        /* greatest velocity per distance to a limit, 1/s */
+    double motion_arm_velocity, motion_arm_acceleration;   /* of wanted motion */
+    double motion_head_velocity, motion_head_acceleration; /* of wanted motion */
+    double motion_margin;                                  /* kept from the joint limits, rad */
+    double motion_slow_down; /* greatest velocity per distance to a limit, 1/s */
 
     double safety_arm_velocity, safety_arm_acceleration;
     double safety_head_velocity, safety_head_acceleration;
-    double state_hold, state_suspend; /* ages of the robot state, s */
-    double reaction, latency;         /* that braking before a limit reckons with, s */
-    double loop_stall;                /* standstill of the loop, s */
-    int overruns_fault;               /* late ticks in a row that are a fault */
+    double safety_state_hold, safety_state_suspend; /* ages of the robot state, s */
+    double safety_reaction, safety_latency; /* that braking before a limit reckons with, s */
+    double safety_loop_stall;               /* standstill of the loop, s */
+    int safety_overruns_fault;              /* late ticks in a row that are a fault */
 
     double head_gain;      /* eq. 11, 1/s */
     double head_smoothing; /* of the way to a target that the arm follows, s */
-    double search_velocity, search_dwell;
+    double head_search_velocity, head_search_dwell;
 
     double fixation_tolerance, fixation_rest; /* px */
     int fixation_frames;
@@ -47,21 +45,24 @@ struct config {
     double explore_noise, explore_speed, explore_widen, explore_patience;
     double explore_secondary_gain, explore_tolerance;
 
-    int task_space;                         /* enum space_kind */
-    double task_gain;                       /* K_m of eq. 4, 1/s */
-    double task_smoothing;                  /* of the set-point of reaching, s */
-    double follow_gain;                     /* k_c of eq. 13, 1/s */
-    double secondary_gain;                  /* K_s of eq. 4, rad/s for a gradient of 1 */
-    double singular_threshold, damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */
-    double scale_angle, scale_disparity, scale_position; /* what counts as one in a task row */
+    int task_space;             /* enum space_kind */
+    double task_gain;           /* K_m of eq. 4, 1/s */
+    double task_smoothing;      /* of the set-point of reaching, s */
+    double task_follow_gain;    /* k_c of eq. 13, 1/s */
+    double task_secondary_gain; /* K_s of eq. 4, rad/s for a gradient of 1 */
+    double task_singular_threshold,
+        task_damping_max; /* delta_T, lambda_MAX of eq. 9, scaled task rows */
+    double task_scale_angle, task_scale_disparity,
+        task_scale_position; /* what counts as one in a task row */
 
     struct learner_config learner; /* its scalar rows; config_learner() adds the rest: */
     int learner_kind;
     double learner_noise_angle, learner_noise_disparity, learner_noise_position; /* sqrt(Psi0) */
-    double learner_reach;                                            /* sqrt(sigma0), rad */
-    struct option_list learner_reference;                            /* rad */
-    double learner_scale;                                            /* rad */
-    double lwpr_norm_angle, lwpr_norm_disparity, lwpr_norm_position; /* rad, px, m */
+    double learner_reach;                 /* sqrt(sigma0), rad */
+    struct option_list learner_reference; /* rad */
+    double learner_scale;                 /* rad */
+    double learner_lwpr_norm_angle, learner_lwpr_norm_disparity,
+        learner_lwpr_norm_position; /* rad, px, m */
     int learner_queue, learner_quota;
 
     char model_directory[OPTION_MAX_TEXT];
@@ -69,21 +70,11 @@ struct config {
     int model_snapshot, model_keep;
     double model_sync; /* s */
 
-    /* What follows from the rows above. */
+    /* What follows from the rows above (derived.c). */
     struct option_list babble_min, babble_max; /* rad */
     struct space space; /* the rows that depend on task.space, as it wants them */
     uint32_t checksum;  /* of all rows as text (config/text.h) */
 };
-
-/* Reads the YAML files, a later one over an earlier one, then the overrides "name=value"; checks
- * each option and checks them against each other.
- *   returns 0, or -1 with one line in `error`. */
-int config_load(struct config *config, const char *const *paths, int n_paths,
-                const char *const *overrides, int n_overrides, char *error, size_t error_size);
-
-/* The table, and its reference for --help-options. */
-const struct option_row *config_table(void);
-void config_print_options(FILE *out);
 
 /* Numbers of joints. The arm's come first in states and commands. */
 static inline int config_arm_joints(const struct config *config)

@@ -1,9 +1,13 @@
-/* Largest sizes, fixed so that nothing is allocated after start. They are those of the messages. */
+/* Largest sizes, fixed so that nothing is allocated after start. */
 #ifndef REACH_DAEMON_CONFIG_SIZES_H
 #define REACH_DAEMON_CONFIG_SIZES_H
 
+/* Those of the messages. */
 #define MAX_JOINTS 16
 #define MAX_OUTPUTS 8
 #define MAX_TARGETS 32
+
+/* Periods whose commands the safety gate remembers; safety.latency must be far shorter. */
+#define SAFETY_RECENT 64
 
 #endif

@@ -4,9 +4,9 @@
  * visual: seen is the image [u_R to the right, v_R down, u_L - u_R], px, and x = [head yaw to the
  *   left, head pitch down, u_L - u_R] (rad, rad, px) of the head that would fixate the marker (eq.
  *   12): a marker to the right of the centre (u > 0) is fixated by turning right (yaw falls), one
- *   below it (v > 0) by looking down (pitch rises). This is the one place that knows which way the
- *   image moves; the paper's "positive gains" K_0, K_1 of equation 11 hide these signs.
- *   `eyes.pixels_per_radian` is the linear relation that it assumes (section 5.2.1).
+ *   below it (v > 0) by looking down (pitch rises). derived.c, which sets `unit`, is the one place
+ *   that knows which way the image moves; the paper's "positive gains" K_0, K_1 of equation 11 hide
+ *   these signs. `eyes.pixels_per_radian` is the linear relation that it assumes (section 5.2.1).
  * cartesian: seen and x are the end-effector's position in the ground frame, m.
  *
  * Both are x_i = (angle of head joint i, where the space has one) + unit_i * seen_i. */

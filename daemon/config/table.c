@@ -1,11 +1,7 @@
-#include "daemon/config/config.h"
+#include "daemon/config/table.h"
 
-#include "daemon/config/check.h"
-#include "daemon/config/space.h"
-#include "daemon/config/text.h"
-#include "learner/parameter_rows.h"
+#include "learner/parameters/rows.h"
 
-#include <math.h>
 #include <string.h>
 
 /* What one tick can touch of the learner's memory. */
@@ -41,21 +37,22 @@ static const struct option_row table[] = {
     LIST("head.min", head_min, "deg", "[]", -180, 180, "lower limits of head yaw, pitch"),
     LIST("head.max", head_max, "deg", "[]", -180, 180, "upper limits of head yaw, pitch"),
 
-    NUMBER("eyes.pixels_per_radian", pixels_per_radian, "px", "0", 0, 1e5,
+    NUMBER("eyes.pixels_per_radian", eyes_pixels_per_radian, "px", "0", 0, 1e5,
            "shift of the image when the head turns by 1 rad (eq. 11 and eq. 12)"),
     NUMBER("eyes.stale", eyes_stale, "s", "0.2", 0.01, 10,
            "age at which the last seen marker or measured end-effector counts as lost"),
 
-    NUMBER("motion.arm_velocity", arm_velocity, "deg/s", "40", 0.1, 360,
+    NUMBER("motion.arm_velocity", motion_arm_velocity, "deg/s", "40", 0.1, 360,
            "greatest velocity of an arm joint in motion; at most safety.arm_velocity"),
-    NUMBER("motion.arm_acceleration", arm_acceleration, "deg/s2", "200", 1, 1e4,
+    NUMBER("motion.arm_acceleration", motion_arm_acceleration, "deg/s2", "200", 1, 1e4,
            "greatest acceleration of an arm joint in motion; at most safety.arm_acceleration"),
-    NUMBER("motion.head_velocity", head_velocity, "deg/s", "60", 0.1, 720,
+    NUMBER("motion.head_velocity", motion_head_velocity, "deg/s", "60", 0.1, 720,
            "greatest velocity of a head joint in motion; at most safety.head_velocity"),
-    NUMBER("motion.head_acceleration", head_acceleration, "deg/s2", "400", 1, 1e5,
+    NUMBER("motion.head_acceleration", motion_head_acceleration, "deg/s2", "400", 1, 1e5,
            "greatest acceleration of a head joint in motion; at most safety.head_acceleration"),
-    NUMBER("motion.margin", margin, "deg", "0.5", 0, 20, "distance kept from every joint limit"),
-    NUMBER("motion.slow_down", slow_down, "1/s", "4", 0.1, 50,
+    NUMBER("motion.margin", motion_margin, "deg", "0.5", 0, 20,
+           "distance kept from every joint limit"),
+    NUMBER("motion.slow_down", motion_slow_down, "1/s", "4", 0.1, 50,
            "greatest velocity per distance to a joint limit (less motion.margin)"),
 
     NUMBER("safety.arm_velocity", safety_arm_velocity, "deg/s", "60", 0.1, 720,
@@ -66,26 +63,26 @@ static const struct option_row table[] = {
            "the safety gate lets no head command exceed this velocity"),
     NUMBER("safety.head_acceleration", safety_head_acceleration, "deg/s2", "1200", 1, 1e6,
            "the safety gate lets no head command change faster than this"),
-    NUMBER("safety.state_hold", state_hold, "s", "0.04", 0.001, 10,
+    NUMBER("safety.state_hold", safety_state_hold, "s", "0.04", 0.001, 10,
            "age of the robot state above which the daemon holds the robot still"),
-    NUMBER("safety.state_suspend", state_suspend, "s", "0.1", 0.001, 60,
+    NUMBER("safety.state_suspend", safety_state_suspend, "s", "0.1", 0.001, 60,
            "age of the robot state above which the behaviour is suspended; at least state_hold"),
-    NUMBER("safety.reaction", reaction, "s", "0.12", 0, 2,
+    NUMBER("safety.reaction", safety_reaction, "s", "0.12", 0, 2,
            "loop standstill allowed for in braking before limits; at least loop_stall + period"),
-    NUMBER("safety.latency", latency, "s", "0.04", 0, 1,
+    NUMBER("safety.latency", safety_latency, "s", "0.04", 0, 1,
            "delay of state and command, beyond a period, allowed for in braking before limits"),
-    NUMBER("safety.loop_stall", loop_stall, "s", "0.1", 0.01, 10,
+    NUMBER("safety.loop_stall", safety_loop_stall, "s", "0.1", 0.01, 10,
            "standstill of the loop after which the watchdog brakes the arm"),
-    COUNT("safety.overruns_fault", overruns_fault, "10", 1, 100000,
+    COUNT("safety.overruns_fault", safety_overruns_fault, "10", 1, 100000,
           "number of late ticks in a row at which the daemon enters the fault state"),
 
     NUMBER("head.gain", head_gain, "1/s", "6", 0.01, 50,
            "gains K_0 and K_1 of eq. 11: velocity of a head joint per radian of error"),
     NUMBER("head.smoothing", head_smoothing, "s", "0.3", 0, 10,
            "time constant with which the head's goal slides to a new target; 0 = it jumps"),
-    NUMBER("head.search_velocity", search_velocity, "deg/s", "40", 0.1, 720,
+    NUMBER("head.search_velocity", head_search_velocity, "deg/s", "40", 0.1, 720,
            "speed of the head's search for a lost marker; at most motion.head_velocity"),
-    NUMBER("head.search_dwell", search_dwell, "s", "0.15", 0, 10,
+    NUMBER("head.search_dwell", head_search_dwell, "s", "0.15", 0, 10,
            "time that the head rests at each place where it searches"),
 
     NUMBER("fixation.tolerance", fixation_tolerance, "px", "2", 0.01, 100,
@@ -139,19 +136,19 @@ static const struct option_row table[] = {
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4: gain on the task error"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
            "time constant with which reaching slides to a new target; 0 = it jumps"),
-    NUMBER("task.follow_gain", follow_gain, "1/s", "3", 0, 50,
+    NUMBER("task.follow_gain", task_follow_gain, "1/s", "3", 0, 50,
            "k_c of eq. 13: gain with which the arm follows the head in coordination"),
-    NUMBER("task.secondary_gain", secondary_gain, "rad/s", "0.05", 0, 10,
+    NUMBER("task.secondary_gain", task_secondary_gain, "rad/s", "0.05", 0, 10,
            "gain K_s of eq. 4: draws the joints to the middle of their range in the null space"),
-    NUMBER("task.singular_threshold", singular_threshold, NULL, "0.05", 1e-9, 1e3,
+    NUMBER("task.singular_threshold", task_singular_threshold, NULL, "0.05", 1e-9, 1e3,
            "delta_T of eq. 9: where damping begins, in scaled task units per radian"),
-    NUMBER("task.damping_max", damping_max, NULL, "0.05", 0, 1e3,
+    NUMBER("task.damping_max", task_damping_max, NULL, "0.05", 0, 1e3,
            "lambda_MAX of eq. 9: greatest damping, in scaled task units per radian"),
-    NUMBER("task.scale_angle", scale_angle, "deg", "10", 1e-6, 360,
+    NUMBER("task.scale_angle", task_scale_angle, "deg", "10", 1e-6, 360,
            "scaled task units: angles are divided by this before norms (eq. 8 and eq. 9)"),
-    NUMBER("task.scale_disparity", scale_disparity, "px", "40", 1e-6, 1e4,
+    NUMBER("task.scale_disparity", task_scale_disparity, "px", "40", 1e-6, 1e4,
            "scaled task units: disparities are divided by this before norms (eq. 8 and eq. 9)"),
-    NUMBER("task.scale_position", scale_position, "m", "0.2", 1e-6, 1e4,
+    NUMBER("task.scale_position", task_scale_position, "m", "0.2", 1e-6, 1e4,
            "scaled task units: positions are divided by this before norms (eq. 8 and eq. 9)"),
 
     CHOICE("learner.kind", learner_kind, "imle", "imle|lwpr",
@@ -169,11 +166,11 @@ static const struct option_row table[] = {
          "middle of the range of each arm joint, where the polynomials are centred"),
     NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100,
            "unit of the joint angles in the polynomials and in LWPR's metric"),
-    NUMBER("learner.lwpr.norm_angle", lwpr_norm_angle, "deg", "1", 1e-6, 360,
+    NUMBER("learner.lwpr.norm_angle", learner_lwpr_norm_angle, "deg", "1", 1e-6, 360,
            "LWPR: unit of head angles in the cost that adapts the metric"),
-    NUMBER("learner.lwpr.norm_disparity", lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
+    NUMBER("learner.lwpr.norm_disparity", learner_lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
            "LWPR: unit of disparities in the cost that adapts the metric"),
-    NUMBER("learner.lwpr.norm_position", lwpr_norm_position, "m", "0.01", 1e-9, 1e3,
+    NUMBER("learner.lwpr.norm_position", learner_lwpr_norm_position, "m", "0.01", 1e-9, 1e3,
            "LWPR: unit of Cartesian positions in the cost that adapts the metric"),
     COUNT("learner.queue", learner_queue, "256", 1, 65536,
           "most training samples that wait to be learned; further ones are dropped and counted"),
@@ -198,9 +195,7 @@ const struct option_row *config_table(void)
     return table;
 }
 
-/* What the learner's rows hold where no file names them: its own defaults for the Kobian's sizes,
- * with experts that span the workspace, so that a tool is an expert. */
-static void preset(struct config *config)
+void config_preset(struct config *config)
 {
     memset(config, 0, sizeof *config);
     config->learner = learner_config_default(4, SPACE_DIMENSIONS);
@@ -214,135 +209,6 @@ void config_print_options(FILE *out)
 {
     struct config config;
 
-    preset(&config);
+    config_preset(&config);
     options_print(table, &config, out);
-}
-
-static void set_visual(struct config *config)
-{
-    const double per_pixel = 1 / config->pixels_per_radian;
-
-    config->space = (struct space){
-        .kind = SPACE_VISUAL,
-        .n_head = 2,
-        .fixates = true,
-        .unit = {-per_pixel, per_pixel, 1},
-        .scale = {config->scale_angle, config->scale_angle, config->scale_disparity},
-        .noise = {config->learner_noise_angle, config->learner_noise_angle,
-                  config->learner_noise_disparity},
-        .norm = {config->lwpr_norm_angle, config->lwpr_norm_angle, config->lwpr_norm_disparity},
-        .largest = 10000, /* px: no image is so large */
-    };
-}
-
-static void set_cartesian(struct config *config)
-{
-    config->space = (struct space){.kind = SPACE_CARTESIAN, .largest = 100 /* m: no arm is */};
-    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
-        config->space.unit[row] = 1;
-        config->space.scale[row] = config->scale_position;
-        config->space.noise[row] = config->learner_noise_position;
-        config->space.norm[row] = config->lwpr_norm_position;
-    }
-}
-
-/* Nobody has said which part of the range is of use: all of it, and babbling finds out. */
-static void set_babble_range(struct config *config)
-{
-    config->babble_min = config->babble_min_given;
-    config->babble_max = config->babble_max_given;
-    if (config->babble_min.n > 0 || config->babble_max.n > 0)
-        return;
-    config->babble_min = config->arm_min;
-    config->babble_max = config->arm_max;
-    for (int i = 0; i < config_arm_joints(config); i++) {
-        config->babble_min.value[i] += config->margin;
-        config->babble_max.value[i] -= config->margin;
-    }
-}
-
-static void set_space(struct config *config)
-{
-    if (config->task_space == SPACE_CARTESIAN)
-        set_cartesian(config);
-    else
-        set_visual(config);
-}
-
-static int set_checksum(struct config *config, char *error, size_t error_size)
-{
-    char text[CONFIG_TEXT_SIZE];
-
-    if (config_text(config, text) < 0) {
-        snprintf(error, error_size, "the configuration as text has more than %d bytes",
-                 CONFIG_TEXT_SIZE - 1);
-        return -1;
-    }
-    config->checksum = config_text_checksum(text);
-    return 0;
-}
-
-int config_load(struct config *config, const char *const *paths, int n_paths,
-                const char *const *overrides, int n_overrides, char *error, size_t error_size)
-{
-    char reason[320];
-
-    preset(config);
-    if (options_load(table, config, paths, n_paths, overrides, n_overrides, error, error_size))
-        return -1;
-    set_space(config);
-    set_babble_range(config);
-    if (config_check(config, reason, sizeof reason)) {
-        snprintf(error, error_size, "%s: %s", n_paths > 0 ? paths[n_paths - 1] : "options", reason);
-        return -1;
-    }
-    return set_checksum(config, error, error_size);
-}
-
-struct joint_limits config_joint_limits(const struct config *config, int joint)
-{
-    int n_arm = config_arm_joints(config);
-
-    if (joint < n_arm)
-        return (struct joint_limits){
-            .min = config->arm_min.value[joint],
-            .max = config->arm_max.value[joint],
-            .velocity = config->arm_velocity,
-            .acceleration = config->arm_acceleration,
-            .safety_velocity = config->safety_arm_velocity,
-            .safety_acceleration = config->safety_arm_acceleration,
-        };
-    return (struct joint_limits){
-        .min = config->head_min.value[joint - n_arm],
-        .max = config->head_max.value[joint - n_arm],
-        .velocity = config->head_velocity,
-        .acceleration = config->head_acceleration,
-        .safety_velocity = config->safety_head_velocity,
-        .safety_acceleration = config->safety_head_acceleration,
-    };
-}
-
-static double square(double x)
-{
-    return x * x;
-}
-
-struct learner_config config_learner(const struct config *config)
-{
-    struct learner_config learner = config->learner;
-
-    learner.kind = (enum learner_kind)config->learner_kind;
-    learner.n_inputs = config_arm_joints(config);
-    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
-        learner.psi0[row] = square(config->space.noise[row]);
-        learner.lwpr.norm_out[row] = config->space.norm[row];
-    }
-    for (int i = 0; i < learner.n_inputs; i++) {
-        learner.reference[i] = config->learner_reference.value[i];
-        learner.scale[i] = config->learner_scale;
-        learner.sigma0[i] = square(config->learner_reach);
-    }
-    if (learner.lwpr.max_projections > learner.n_inputs)
-        learner.lwpr.max_projections = learner.n_inputs;
-    return learner;
 }

@@ -1,15 +1,18 @@
 #include "daemon/config/text.h"
 
+#include "common/base/checksum.h"
 #include "common/bus/open.h"
 #include "common/program/version.h"
-#include "daemon/bus/incoming.h"
+#include "daemon/config/table.h"
 
+#include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 256, LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
+enum { LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
 
 /* As --set takes it. A text stands in quotes, since YAML would take some characters otherwise. */
-static void line(const struct option_row *row, const struct config *config, char out[LINE_SIZE])
+static void write_row(const struct option_row *row, const struct config *config,
+                      char out[LINE_SIZE])
 {
     char value[OPTION_TEXT_SIZE];
     bool list = row->type == OPTION_LIST || row->type == OPTION_SPREAD;
@@ -38,7 +41,7 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
 
     text[0] = '\0';
     for (const struct option_row *row = config_table(); row->name; row++) {
-        line(row, config, next);
+        write_row(row, config, next);
         used += snprintf(text + used, (size_t)(CONFIG_TEXT_SIZE - used), "%s\n", next);
         if (used >= CONFIG_TEXT_SIZE)
             return -1;
@@ -46,21 +49,9 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
     return used;
 }
 
-int config_from_text(struct config *config, char *text, char *error, size_t error_size)
-{
-    const char *overrides[MOST_LINES];
-    char *rest = text, *next;
-    int n = 0;
-
-    while ((next = strsep(&rest, "\n")) != NULL && n < MOST_LINES)
-        if (*next)
-            overrides[n++] = next;
-    return config_load(config, NULL, 0, overrides, n, error, error_size);
-}
-
 uint32_t config_text_checksum(const char *text)
 {
-    return incoming_checksum(text, strlen(text));
+    return checksum_crc32(text, strlen(text));
 }
 
 void config_message(const struct config *config, reach_config_t *message)

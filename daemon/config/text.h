@@ -1,5 +1,6 @@
 /* A configuration as one text, which gives it again to the last bit: lines "name=value", as --set
- * takes them, for every option. A log holds it, so that it can be replayed without the files. */
+ * takes them, for every option. config_from_text() loads it; a log holds it, so that it can be
+ * replayed without the files. */
 #ifndef REACH_DAEMON_CONFIG_TEXT_H
 #define REACH_DAEMON_CONFIG_TEXT_H
 
@@ -11,9 +12,6 @@ enum { CONFIG_TEXT_SIZE = sizeof((reach_config_t *)0)->text }; /* with its termi
 
 /* The text of what was loaded. Returns its length, or -1 when it does not fit. */
 int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE]);
-
-/* Loads it. Returns 0, or -1 with one line in `error`. The text is taken apart. */
-int config_from_text(struct config *config, char *text, char *error, size_t error_size);
 
 /* CRC-32 of the text. */
 uint32_t config_text_checksum(const char *text);

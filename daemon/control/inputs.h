@@ -17,8 +17,8 @@ bool inputs_state_ok(const struct config *config, const reach_robot_state_t *sta
 /* An observation: finite, and where the task space could have it. */
 bool inputs_observation_ok(const struct config *config, const struct observation *observation);
 
-/* The values of a request: counts, targets, period, and that the task space knows its kind. Whether
- * it fits the daemon's state is not looked at. */
-bool inputs_request_ok(const struct config *config, const reach_request_t *request);
+/* The kind and the values of a request that starts no behaviour; those that start one are looked at
+ * by it (behaviour_ops.accepts). Whether it fits the daemon's state is not looked at. */
+bool inputs_request_ok(const reach_request_t *request);
 
 #endif

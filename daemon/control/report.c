@@ -1,5 +1,4 @@
 #include "daemon/control/tick_private.h"
-#include "learner/store/model_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,32 +6,32 @@
 /* The pair belongs to the past; eq. 14 brings its output to the present joints. */
 void tick_anchor(struct tick *tick, const struct pair *pair)
 {
-    struct selection *selection = &tick->selection;
-    const double *jacobian = select_jacobian(selection);
+    struct estimate *estimate = &tick->estimate;
+    const double *jacobian = estimate_jacobian(estimate);
     double x[MAX_OUTPUTS] = {0};
 
-    for (int row = 0; row < selection->n_outputs; row++) {
+    for (int row = 0; row < estimate->n_outputs; row++) {
         x[row] = pair->x[row];
-        for (int i = 0; jacobian && i < selection->n_inputs; i++)
-            x[row] += jacobian[row * selection->n_inputs + i] * (tick->q[i] - pair->q[i]);
+        for (int i = 0; jacobian && i < estimate->n_inputs; i++)
+            x[row] += jacobian[row * estimate->n_inputs + i] * (tick->q[i] - pair->q[i]);
     }
-    select_anchor(selection, x);
+    estimate_anchor(estimate, x);
 }
 
 /* A pair of this very instant needs no prediction of its own. */
 static const struct learner_prediction *predict_at(struct tick *tick, const double *q)
 {
-    size_t size = sizeof(double) * (size_t)tick->selection.n_inputs;
+    size_t size = sizeof(double) * (size_t)tick->estimate.n_inputs;
 
     if (tick->state_seq_now && memcmp(q, tick->q, size) == 0)
-        return &tick->selection.prediction;
+        return &tick->estimate.prediction;
     learner_predict(tick->learner, q, &tick->pair_prediction);
     return &tick->pair_prediction;
 }
 
 void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs)
 {
-    struct selection *selection = &tick->selection;
+    struct estimate *estimate = &tick->estimate;
     const struct learner_prediction *prediction = predict_at(tick, pair->q);
     reach_sample_t *sample = &outputs->sample;
 
@@ -41,12 +40,12 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
     sample->seq = ++tick->sample_seq;
     sample->request_seq = tick->behaviour.request_seq;
     sample->learned = tick->behaviour.learn;
-    sample->n_inputs = selection->n_inputs;
-    sample->n_outputs = selection->n_outputs;
+    sample->n_inputs = estimate->n_inputs;
+    sample->n_outputs = estimate->n_outputs;
     memcpy(sample->q, pair->q, sizeof sample->q);
     memcpy(sample->x, pair->x, sizeof sample->x);
     sample->solutions = prediction->n_solutions;
-    sample->solution = select_closest(selection, prediction, selection->x_estimated);
+    sample->solution = estimate_closest(estimate, prediction, estimate->x_estimated);
     for (int k = 0; k < prediction->n_solutions; k++)
         memcpy(sample->values[k], prediction->solution[k].value, sizeof sample->values[k]);
     if (sample->solution >= 0)
@@ -55,7 +54,7 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
     outputs->has_sample = true;
 
     if (tick->behaviour.learn)
-        training_add(&tick->training, pair->q, selection->n_inputs, pair->x, selection->n_outputs);
+        sample_queue_add(&tick->queue, pair->q, estimate->n_inputs, pair->x, estimate->n_outputs);
     tick_anchor(tick, pair);
 }
 
@@ -81,28 +80,35 @@ static void report_behaviour(const struct tick *tick, reach_status_t *status)
     status->skipped = behaviour->progress.skipped;
 }
 
+/* Samples that were handed to the model in its life, those that it dropped among them. */
+static int64_t samples_of(const struct learner_statistics *counts)
+{
+    return (int64_t)(counts->samples + counts->outliers + counts->full + counts->refused);
+}
+
 static void report_model(const struct tick *tick, reach_status_t *status)
 {
-    const struct selection *selection = &tick->selection;
-    const double *value = select_value(selection);
-    struct model_store_report store = model_store_report(tick->store);
+    const struct estimate *estimate = &tick->estimate;
+    const double *value = estimate_value(estimate);
+    const struct learner_statistics statistics = learner_get_statistics(tick->learner);
+    struct model_report model = tick->model.ops->report(tick->model.context);
 
-    status->samples = tick->training.learned;
-    status->model_samples = (int64_t)model_samples(tick->learner);
-    status->samples_stored = store.stored;
-    status->storing = store.storing;
-    status->store_waits = store.waits;
-    status->experts = learner_get_statistics(tick->learner).experts;
-    status->solutions = selection->prediction.n_solutions;
-    status->solution = selection->solution;
+    status->samples = tick->queue.learned;
+    status->model_samples = samples_of(&statistics);
+    status->samples_stored = model.stored;
+    status->storing = model.storing;
+    status->store_waits = model.waits;
+    status->experts = statistics.experts;
+    status->solutions = estimate->prediction.n_solutions;
+    status->solution = estimate->solution;
     status->contexts = tick->context.count;
     status->context = tick->context.current;
-    status->n_outputs = selection->n_outputs;
+    status->n_outputs = estimate->n_outputs;
     if (value)
         memcpy(status->x_predicted, value, sizeof status->x_predicted);
-    memcpy(status->x_estimated, selection->x_estimated, sizeof status->x_estimated);
-    status->queue = tick->training.count;
-    status->dropped_samples = tick->training.dropped;
+    memcpy(status->x_estimated, estimate->x_estimated, sizeof status->x_estimated);
+    status->queue = tick->queue.count;
+    status->dropped_samples = tick->queue.dropped;
 }
 
 static void report_status(const struct tick *tick, int64_t now, reach_status_t *status)
@@ -129,7 +135,7 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
 static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
                          reach_trace_t *trace)
 {
-    struct model_store_moment moment = model_store_moment(tick->store);
+    struct model_moment moment = tick->model.ops->moment(tick->model.context);
 
     trace->utime = now;
     trace->seq = tick->seq;
@@ -143,12 +149,12 @@ static void report_trace(const struct tick *tick, int64_t now, const struct tick
     trace->learned = tick->learned_now;
     trace->n_joints = outputs->command.n_joints;
     memcpy(trace->velocity, outputs->command.velocity, sizeof trace->velocity);
-    trace->solutions = tick->selection.prediction.n_solutions;
-    trace->solution = tick->selection.solution;
-    trace->n_outputs = tick->selection.n_outputs;
+    trace->solutions = tick->estimate.prediction.n_solutions;
+    trace->solution = tick->estimate.solution;
+    trace->n_outputs = tick->estimate.n_outputs;
     memcpy(trace->x_seen, tick->sight.carried, sizeof trace->x_seen);
     memcpy(trace->x_target, tick->target, sizeof trace->x_target);
-    memcpy(trace->x_estimated, tick->selection.x_estimated, sizeof trace->x_estimated);
+    memcpy(trace->x_estimated, tick->estimate.x_estimated, sizeof trace->x_estimated);
 }
 
 void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs)

@@ -10,22 +10,40 @@ static bool may_start(const struct tick *tick)
            !tick->behaviour.ops;
 }
 
-static int8_t start_behaviour(struct tick *tick, const reach_request_t *request,
-                              struct control *control)
+static int8_t start_behaviour(struct tick *tick, const struct behaviour_ops *ops,
+                              const reach_request_t *request, const struct senses *senses,
+                              struct wants *wants)
 {
+    struct behaviour *behaviour = &tick->behaviour;
+
+    if (!ops->accepts(tick->config, request))
+        return REACH_STATUS_T_REFUSED_VALUE;
     if (!may_start(tick))
         return REACH_STATUS_T_REFUSED_STATE;
-    memset(&tick->behaviour, 0, sizeof tick->behaviour);
-    tick->behaviour.ops = behaviour_for_request(request->kind);
-    tick->behaviour.request_seq = request->seq;
-    tick->behaviour.learn = request->learn != 0;
-    tick->behaviour.ops->start(&tick->behaviour, request, control);
+    behaviour->ops = ops;
+    behaviour->request_seq = request->seq;
+    behaviour->learn = request->learn != 0;
+    behaviour->progress = (struct progress){0};
+    memset(behaviour->state, 0, ops->state_size);
+    ops->start(behaviour, request, senses, wants);
     return REACH_STATUS_T_ACCEPTED;
 }
 
-static int8_t answer(struct tick *tick, const reach_request_t *request, struct control *control)
+static bool begin_save(struct tick *tick, int number)
 {
-    if (!inputs_request_ok(tick->config, request))
+    return tick->model.ops->begin_save(tick->model.context, number);
+}
+
+/* The model must not change under a behaviour that steers by it. */
+static bool begin_load(struct tick *tick, int number)
+{
+    return may_start(tick) && tick->model.ops->begin_load(tick->model.context, number);
+}
+
+/* What is asked of the daemon itself. */
+static int8_t serve(struct tick *tick, const reach_request_t *request)
+{
+    if (!inputs_request_ok(request))
         return REACH_STATUS_T_REFUSED_VALUE;
     switch (request->kind) {
     case REACH_REQUEST_T_STOP:
@@ -38,36 +56,51 @@ static int8_t answer(struct tick *tick, const reach_request_t *request, struct c
         tick->emergency_requested = true;
         return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_SAVE:
-        return model_store_begin_save(tick->store, request->count) ? REACH_STATUS_T_PENDING
-                                                                   : REACH_STATUS_T_REFUSED_STATE;
+        return begin_save(tick, request->count) ? REACH_STATUS_T_PENDING
+                                                : REACH_STATUS_T_REFUSED_STATE;
     case REACH_REQUEST_T_LOAD:
-        /* The model must not change under a behaviour that steers by it. */
-        tick->loading = may_start(tick) && model_store_begin_load(tick->store, request->count);
+        tick->loading = begin_load(tick, request->count);
         return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
-        return start_behaviour(tick, request, control);
+        return REACH_STATUS_T_REFUSED_VALUE;
     }
 }
 
-void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
-                        struct control *control)
+/* Returns a request_result of status_t. */
+static int8_t answer_request(struct tick *tick, const reach_request_t *request,
+                             const struct senses *senses, struct wants *wants)
 {
-    enum model_store_result stored = model_store_poll(tick->store, &tick->learner);
+    const struct behaviour_ops *ops = behaviour_find(tick->behaviours, request->kind);
 
-    if (stored != MODEL_STORE_NOTHING && tick->request_result == REACH_STATUS_T_PENDING)
+    return ops ? start_behaviour(tick, ops, request, senses, wants) : serve(tick, request);
+}
+
+/* A save or a load that is over answers the request that waits for it. */
+static void poll_model(struct tick *tick)
+{
+    enum model_result result = tick->model.ops->poll(tick->model.context, &tick->learner);
+
+    if (result == MODEL_NOTHING)
+        return;
+    if (tick->request_result == REACH_STATUS_T_PENDING)
         tick->request_result =
-            stored == MODEL_STORE_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
-    if (stored == MODEL_STORE_DONE && tick->loading)
+            result == MODEL_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
+    if (result == MODEL_DONE && tick->loading)
         context_init(&tick->context); /* its experts are others */
-    if (stored != MODEL_STORE_NOTHING)
-        tick->loading = false;
+    tick->loading = false;
+}
+
+void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
+                        const struct senses *senses, struct wants *wants)
+{
+    poll_model(tick);
     tick->request_seq_now = 0;
     for (int i = 0; i < inputs->n_requests; i++) {
         const reach_request_t *request = &inputs->request[i];
         if (request->seq == tick->request_seq)
             continue;
         tick->request_seq = tick->request_seq_now = request->seq;
-        tick->request_result = answer(tick, request, control);
+        tick->request_result = answer_request(tick, request, senses, wants);
         if (tick->request_result == REACH_STATUS_T_REFUSED_VALUE)
             tick->bad_inputs++;
     }

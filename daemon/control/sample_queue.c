@@ -2,48 +2,48 @@
 
 #include <string.h>
 
-size_t training_memory(int capacity)
+size_t sample_queue_memory(int capacity)
 {
-    return arena_footprint(sizeof(struct training_sample) * (size_t)capacity);
+    return arena_footprint(sizeof(struct queued_sample) * (size_t)capacity);
 }
 
-int training_init(struct training *training, int capacity, struct arena *arena)
+int sample_queue_init(struct sample_queue *queue, int capacity, struct arena *arena)
 {
-    memset(training, 0, sizeof *training);
-    training->capacity = capacity;
-    training->samples = arena_alloc(arena, sizeof(struct training_sample) * (size_t)capacity);
-    return training->samples ? 0 : -1;
+    memset(queue, 0, sizeof *queue);
+    queue->capacity = capacity;
+    queue->samples = arena_alloc(arena, sizeof(struct queued_sample) * (size_t)capacity);
+    return queue->samples ? 0 : -1;
 }
 
-void training_add(struct training *training, const double *z, int n_inputs, const double *x,
-                  int n_outputs)
+void sample_queue_add(struct sample_queue *queue, const double *z, int n_inputs, const double *x,
+                      int n_outputs)
 {
-    struct training_sample *sample;
+    struct queued_sample *sample;
 
-    if (training->count == training->capacity) {
-        training->dropped++;
+    if (queue->count == queue->capacity) {
+        queue->dropped++;
         return;
     }
-    sample = &training->samples[(training->oldest + training->count) % training->capacity];
+    sample = &queue->samples[(queue->oldest + queue->count) % queue->capacity];
     memcpy(sample->z, z, sizeof(double) * (size_t)n_inputs);
     memcpy(sample->x, x, sizeof(double) * (size_t)n_outputs);
-    training->count++;
+    queue->count++;
 }
 
-const struct training_sample *training_oldest(const struct training *training)
+const struct queued_sample *sample_queue_oldest(const struct sample_queue *queue)
 {
-    return training->count > 0 ? &training->samples[training->oldest] : NULL;
+    return queue->count > 0 ? &queue->samples[queue->oldest] : NULL;
 }
 
-bool training_learn_one(struct training *training, struct learner *learner)
+bool sample_queue_learn_one(struct sample_queue *queue, struct learner *learner)
 {
-    const struct training_sample *sample = training_oldest(training);
+    const struct queued_sample *sample = sample_queue_oldest(queue);
 
     if (!sample)
         return false;
     learner_update(learner, sample->z, sample->x);
-    training->oldest = (training->oldest + 1) % training->capacity;
-    training->count--;
-    training->learned++;
+    queue->oldest = (queue->oldest + 1) % queue->capacity;
+    queue->count--;
+    queue->learned++;
     return true;
 }

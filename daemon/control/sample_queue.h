@@ -11,33 +11,33 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct training {
+struct sample_queue {
     int capacity;
     int oldest;
     int count;       /* samples that wait */
     int64_t learned; /* samples handed to the learner */
     int64_t dropped; /* samples that the queue could not hold */
-    struct training_sample *samples;
+    struct queued_sample *samples;
 };
 
-struct training_sample {
+struct queued_sample {
     double z[MAX_JOINTS];
     double x[MAX_OUTPUTS];
 };
 
-size_t training_memory(int capacity);
+size_t sample_queue_memory(int capacity);
 
 /* The queue's samples come from the arena. Returns 0, or -1 when the arena is full. */
-int training_init(struct training *training, int capacity, struct arena *arena);
+int sample_queue_init(struct sample_queue *queue, int capacity, struct arena *arena);
 
 /* Queues a copy of z[n_inputs], x[n_outputs]. */
-void training_add(struct training *training, const double *z, int n_inputs, const double *x,
-                  int n_outputs);
+void sample_queue_add(struct sample_queue *queue, const double *z, int n_inputs, const double *x,
+                      int n_outputs);
 
 /* The sample that is next; NULL when none waits. */
-const struct training_sample *training_oldest(const struct training *training);
+const struct queued_sample *sample_queue_oldest(const struct sample_queue *queue);
 
 /* Hands the oldest sample to the learner. Returns false when none waits. */
-bool training_learn_one(struct training *training, struct learner *learner);
+bool sample_queue_learn_one(struct sample_queue *queue, struct learner *learner);
 
 #endif

@@ -4,8 +4,6 @@
 #include <reach_status_t.h>
 #include <stddef.h>
 
-static const char *const names[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
-static_assert(sizeof names / sizeof names[0] == SUPERVISOR_N_STATES, "a name for each state");
 static_assert(SUPERVISOR_WAITING == REACH_STATUS_T_WAITING &&
                   SUPERVISOR_IDLE == REACH_STATUS_T_IDLE &&
                   SUPERVISOR_ACTIVE == REACH_STATUS_T_ACTIVE &&
@@ -60,9 +58,4 @@ int8_t supervisor_fault(enum supervisor_state state, uint32_t conditions, int8_t
     if (conditions & CONDITION_STALLED)
         return REACH_STATUS_T_FAULT_STALL;
     return fault == REACH_STATUS_T_FAULT_NONE ? REACH_STATUS_T_FAULT_OVERRUNS : fault;
-}
-
-const char *supervisor_name(enum supervisor_state state)
-{
-    return names[state];
 }

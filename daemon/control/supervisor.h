@@ -33,7 +33,4 @@ enum supervisor_state supervisor_next(enum supervisor_state state, uint32_t cond
 /* Why the state is a fault: a constant FAULT_* of status_t. `fault` is the reason so far. */
 int8_t supervisor_fault(enum supervisor_state state, uint32_t conditions, int8_t fault);
 
-/* "waiting", "idle", ... for logs. */
-const char *supervisor_name(enum supervisor_state state);
-
 #endif

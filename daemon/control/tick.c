@@ -23,77 +23,58 @@ size_t tick_memory(const struct config *config)
     struct learner_config learner = config_learner(config);
     size_t learner_bytes = learner_memory(&learner);
 
-    return arena_footprint(sizeof(struct tick)) + learner_bytes + model_store_memory() +
-           training_memory(config->learner_queue);
+    return arena_footprint(sizeof(struct tick)) + learner_bytes +
+           sample_queue_memory(config->learner_queue);
 }
 
-struct model_store_settings tick_store_settings(const struct config *config)
-{
-    return (struct model_store_settings){
-        .directory = config->model_directory,
-        .automatic = config->model_automatic,
-        .snapshot_samples = config->model_snapshot,
-        .sync_us = (int64_t)(config->model_sync * 1e6),
-        .keep = config->model_keep,
-        .learner = config_learner(config),
-    };
-}
-
-struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+struct tick *tick_create(const struct tick_settings *settings, struct arena *arena, char *error,
                          size_t error_size)
 {
+    const struct config *config = settings->config;
     struct learner_config learner = config_learner(config);
-    const struct model_store_settings settings = tick_store_settings(config);
     struct tick *tick = arena_alloc(arena, sizeof *tick);
 
-    if (!tick || training_init(&tick->training, config->learner_queue, arena)) {
+    if (!tick || sample_queue_init(&tick->queue, config->learner_queue, arena)) {
         snprintf(error, error_size, "out of memory");
         return NULL;
     }
     tick->config = config;
+    tick->model = settings->model;
+    tick->behaviours = settings->behaviours ? settings->behaviours : behaviour_table;
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
         return NULL;
-    tick->store = model_store_create(&settings, arena, error, error_size);
-    if (!tick->store)
-        return NULL;
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
-    select_init(&tick->selection, config_arm_joints(config), SPACE_DIMENSIONS, config->space.scale);
+    estimate_init(&tick->estimate, config_arm_joints(config), SPACE_DIMENSIONS,
+                  config->space.scale);
     context_init(&tick->context);
     gaze_init(&tick->gaze, config);
     safety_init(&tick->safety, config);
     return tick;
 }
 
-struct model_store *tick_model_store(struct tick *tick)
+struct learner *tick_learner(struct tick *tick)
 {
-    return tick->store;
-}
-
-int tick_open_model(struct tick *tick, char *error, size_t error_size)
-{
-    return model_store_open(tick->store, tick->learner, error, error_size);
-}
-
-void tick_take_recorded_model(struct tick *tick)
-{
-    model_store_poll(tick->store, &tick->learner);
+    return tick->learner;
 }
 
 bool tick_awaits_store(const struct tick *tick)
 {
-    return model_store_works(tick->store) ||
-           (training_oldest(&tick->training) && model_store_full(tick->store));
+    const struct model_port *model = &tick->model;
+
+    return model->ops->works(model->context) ||
+           (sample_queue_oldest(&tick->queue) && model->ops->full(model->context));
 }
 
 bool tick_learn(struct tick *tick)
 {
-    const struct training_sample *sample = training_oldest(&tick->training);
+    const struct queued_sample *sample = sample_queue_oldest(&tick->queue);
+    const struct model_port *model = &tick->model;
 
-    if (!sample || !model_store_note(tick->store, sample->z, sample->x))
+    if (!sample || !model->ops->note(model->context, sample->z, sample->x))
         return false;
-    training_learn_one(&tick->training, tick->learner);
+    sample_queue_learn_one(&tick->queue, tick->learner);
     tick->learned_now++;
     return true;
 }
@@ -104,7 +85,7 @@ static void begin_anew(struct tick *tick)
     history_init(&tick->history, config_joints(tick->config));
     sight_init(&tick->sight, tick->config);
     gaze_init(&tick->gaze, tick->config);
-    tick->selection.moved_from = false;
+    tick->estimate.moved_from = false;
 }
 
 /* Overtaken on its way by a newer one, or seen before. A robot that starts anew begins with
@@ -160,7 +141,7 @@ static void take_observations(struct tick *tick, const struct tick_inputs *input
 }
 
 /* The output is measured, wherever the end-effector is: the estimate of eq. 14 starts from it. */
-static void measure(struct tick *tick)
+static void anchor_to_measured(struct tick *tick)
 {
     struct pair pair;
 
@@ -172,13 +153,13 @@ static void measure(struct tick *tick)
 static void sense(struct tick *tick)
 {
     if (tick->state_seq_now) {
-        select_integrate(&tick->selection, tick->q);
+        estimate_integrate(&tick->estimate, tick->q);
         if (tick->sight.new_frame && !tick->config->space.fixates)
-            measure(tick);
-        select_solution(&tick->selection, tick->learner, tick->q);
-        context_follow(&tick->context, &tick->selection);
+            anchor_to_measured(tick);
+        estimate_choose(&tick->estimate, tick->learner, tick->q);
+        context_follow(&tick->context, &tick->estimate);
     }
-    sight_carry(&tick->sight, tick->q, select_jacobian(&tick->selection));
+    sight_carry(&tick->sight, tick->q, estimate_jacobian(&tick->estimate));
 }
 
 static uint32_t conditions(const struct tick *tick, const struct tick_inputs *inputs)
@@ -187,9 +168,9 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
     if (tick->state_known)
         set |= CONDITION_STATE_KNOWN;
-    if (tick->state_age <= tick->config->state_hold)
+    if (tick->state_age <= tick->config->safety_state_hold)
         set |= CONDITION_STATE_FRESH;
-    if (tick->state_age <= tick->config->state_suspend)
+    if (tick->state_age <= tick->config->safety_state_suspend)
         set |= CONDITION_STATE_ALIVE;
     if (tick->behaviour.ops)
         set |= CONDITION_BUSY;
@@ -219,7 +200,7 @@ static void supervise(struct tick *tick, const struct tick_inputs *inputs)
 
 /* What the behaviour wants, shaped; rest when none runs. What the supervisor stops is stopped by
  * the gate alone, as fast as the robot may. */
-static void behave(struct tick *tick, struct control *control)
+static void behave(struct tick *tick, const struct senses *senses, struct wants *wants)
 {
     const struct config *config = tick->config;
     int n_arm = config_arm_joints(config);
@@ -227,17 +208,17 @@ static void behave(struct tick *tick, struct control *control)
     if (tick->state != SUPERVISOR_ACTIVE && tick->state != SUPERVISOR_IDLE)
         return;
     if (tick->state == SUPERVISOR_ACTIVE && tick->behaviour.ops &&
-        !tick->behaviour.ops->step(&tick->behaviour, control)) {
+        !tick->behaviour.ops->step(&tick->behaviour, senses, wants)) {
         tick->behaviour.ops = NULL;
-        memset(control->velocity, 0, sizeof control->velocity);
+        memset(wants->velocity, 0, sizeof wants->velocity);
     }
-    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, control->velocity);
+    motion_shape(config, 0, n_arm, tick->q, tick->safety.previous, wants->velocity);
     motion_shape(config, n_arm, config_head_joints(config), tick->q, tick->safety.previous,
-                 control->velocity);
+                 wants->velocity);
 }
 
-static void command(struct tick *tick, const struct control *control, int64_t now,
-                    struct tick_outputs *outputs)
+static void fill_command(struct tick *tick, const struct wants *wants, int64_t now,
+                         struct tick_outputs *outputs)
 {
     reach_robot_command_t *command = &outputs->command;
 
@@ -246,7 +227,7 @@ static void command(struct tick *tick, const struct control *control, int64_t no
                                        .seq = tick->seq,
                                        .state_seq = tick->state_seq,
                                        .n_joints = config_joints(tick->config)};
-    memcpy(command->velocity, control->velocity, sizeof command->velocity);
+    memcpy(command->velocity, wants->velocity, sizeof command->velocity);
     safety_gate(&tick->safety, tick->q, command->velocity);
 }
 
@@ -262,16 +243,15 @@ static void take_config(struct tick *tick, const struct config *config)
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs)
 {
-    struct control control = {
+    const struct senses senses = {
         .config = inputs->config ? inputs->config : tick->config,
         .now = now,
         .q = tick->q,
         .previous = tick->safety.previous,
         .sight = &tick->sight,
-        .selection = &tick->selection,
-        .gaze = &tick->gaze,
-        .tried = &tick->tried,
+        .estimate = &tick->estimate,
     };
+    struct wants wants = {.gaze = &tick->gaze, .tried = &tick->tried};
 
     if (inputs->config)
         take_config(tick, inputs->config);
@@ -289,12 +269,12 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
     take_state(tick, inputs);
     take_observations(tick, inputs);
     sense(tick);
-    tick_take_requests(tick, inputs, &control);
+    tick_take_requests(tick, inputs, &senses, &wants);
     supervise(tick, inputs);
-    behave(tick, &control);
-    if (control.has_pair)
-        tick_take_pair(tick, &control.pair, outputs);
-    tick->has_target = control.has_target;
-    memcpy(tick->target, control.target, sizeof tick->target);
-    command(tick, &control, now, outputs);
+    behave(tick, &senses, &wants);
+    if (wants.has_pair)
+        tick_take_pair(tick, &wants.pair, outputs);
+    tick->has_target = wants.has_target;
+    memcpy(tick->target, wants.target, sizeof tick->target);
+    fill_command(tick, &wants, now, outputs);
 }

@@ -8,8 +8,8 @@
 
 #include "common/base/arena.h"
 #include "daemon/config/config.h"
+#include "daemon/control/model_port.h"
 #include "daemon/control/senses/observation.h"
-#include "learner/store/store.h"
 
 #include <reach_request_t.h>
 #include <reach_robot_command_t.h>
@@ -52,39 +52,38 @@ struct tick_outputs {
 };
 
 struct tick;
+struct behaviour_ops;
+
+struct tick_settings {
+    const struct config *config; /* kept, not copied */
+    struct model_port model;     /* who keeps what is learned; stays the caller's */
+    /* What can be asked for; ends with NULL. NULL = behaviour_table (behaviours/table.h). */
+    const struct behaviour_ops *const *behaviours;
+};
 
 /* Bytes that tick_create takes from an arena. */
 size_t tick_memory(const struct config *config);
 
-/* Everything of the control step, owned by the arena. `config` is kept, not copied.
+/* Everything of the control step, owned by the arena. `settings` is copied.
  * Returns NULL with one line in `error`. */
-struct tick *tick_create(const struct config *config, struct arena *arena, char *error,
+struct tick *tick_create(const struct tick_settings *settings, struct arena *arena, char *error,
                          size_t error_size);
+
+/* Before the first tick: the learner, which knows nothing yet, for whoever has a model for it. */
+struct learner *tick_learner(struct tick *tick);
 
 /* Senses, supervises, decides. Fills command and sample. */
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs);
 
-/* Learns one sample of those that wait. Returns false when none does, or when the store has no room
- * for it: learning then waits, control does not. */
+/* Learns one sample of those that wait. Returns false when none does, or when there is no room to
+ * keep it: learning then waits, control does not. */
 bool tick_learn(struct tick *tick);
 
-/* Whether a sample waits for the store's room, or a request for a model that is saved or loaded. */
+/* Whether a sample waits for room to be kept, or a request for a model that is saved or loaded. */
 bool tick_awaits_store(const struct tick *tick);
 
 /* Fills status and trace of the tick just decided. */
 void tick_report(struct tick *tick, int64_t now, struct tick_outputs *outputs);
-
-/* The store that housekeeping must serve. */
-struct model_store *tick_model_store(struct tick *tick);
-
-/* Before the loop starts: goes on from the model on disk. Returns 0, or -1 with one line. */
-int tick_open_model(struct tick *tick, char *error, size_t error_size);
-
-/* The same for a replay: takes what its store has been given (model_store_replay). */
-void tick_take_recorded_model(struct tick *tick);
-
-/* The model.* options, for the store. */
-struct model_store_settings tick_store_settings(const struct config *config);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "daemon/control/behaviours/behaviour.h"
 #include "daemon/control/behaviours/gaze.h"
+#include "daemon/control/behaviours/table.h"
 #include "daemon/control/kinematics/estimate.h"
 #include "daemon/control/limits/safety.h"
 #include "daemon/control/sample_queue.h"
@@ -17,11 +18,12 @@
 struct tick {
     const struct config *config;
     struct learner *learner;
-    struct model_store *store;
-    struct training training;
+    struct model_port model;
+    const struct behaviour_ops *const *behaviours;
+    struct sample_queue queue;
     struct history history;
     struct sight sight;
-    struct selection selection;
+    struct estimate estimate;
     struct context context;
     struct gaze gaze;
     struct tried tried;
@@ -56,7 +58,7 @@ struct tick {
 
 /* Looks at the requests that came, and at what became of a save or load. */
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
-                        struct control *control);
+                        const struct senses *senses, struct wants *wants);
 
 /* The output was measured at the pair's joints: eq. 14 goes on from there. */
 void tick_anchor(struct tick *tick, const struct pair *pair);

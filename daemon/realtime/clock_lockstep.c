@@ -1,107 +1,111 @@
-#include "daemon/realtime/loop_private.h"
+#include "daemon/realtime/clock.h"
 
 #include "common/bus/open.h"
+#include "daemon/realtime/due_observations.h"
 
 #include <time.h>
 
 static const int lockstep_poll_ms = 100; /* how soon a waiting loop sees that it is to end */
 
 /* Lockstep: until a message comes, or for a while. */
-static void wait_for_message(struct loop *loop, enum loop_wait waits)
+static void wait_for_message(struct step *step, enum loop_wait waits)
 {
-    if (!daemon_bus_wait(loop->bus, lockstep_poll_ms))
-        loop_set_waits(loop, waits);
-    watchdog_feed(loop->watchdog, NULL);
+    if (!daemon_bus_wait(step->bus, lockstep_poll_ms))
+        step_set_waits(step, waits);
+    watchdog_feed(step->watchdog, NULL);
 }
 
 /* The observation that the state says is due with it, of the sense that this task space has. */
-static int64_t due_with(const struct loop *loop, const reach_robot_state_t *state)
+static int64_t due_with(const struct step *step, const reach_robot_state_t *state)
 {
-    return loop->config->space.kind == SPACE_CARTESIAN ? state->effector_due : state->vision_due;
+    return step->config->space.kind == SPACE_CARTESIAN ? state->effector_due : state->vision_due;
 }
 
-/* Waits for the observation of this instant. Returns false when the loop is to end. */
-static bool wait_for_observation(struct loop *loop, int64_t due)
+/* Waits for the observation of this instant; later ones stay in `waiting`. Returns false when the
+ * loop is to end. */
+static bool wait_for_observation(struct step *step, struct due_observations *waiting, int64_t due)
 {
-    struct tick_inputs *inputs = &loop->inputs;
+    struct tick_inputs *inputs = &step->inputs;
     struct observation observation;
 
     for (;;) {
-        while (mailbox_take(daemon_bus_observations(loop->bus), &observation))
-            due_observations_add(&loop->due, &observation);
-        if (due_observations_ready(&loop->due, due))
+        while (mailbox_take(daemon_bus_observations(step->bus), &observation))
+            due_observations_add(waiting, &observation);
+        if (due_observations_ready(waiting, due))
             break;
-        if (loop_ending(loop))
+        if (step_ending(step))
             return false;
-        wait_for_message(loop, LOOP_WAITS_FOR_OBSERVATION);
+        wait_for_message(step, LOOP_WAITS_FOR_OBSERVATION);
     }
-    loop_set_waits(loop, LOOP_RUNS);
+    step_set_waits(step, LOOP_RUNS);
     inputs->n_observations = 0;
     while (inputs->n_observations < TICK_MAX_OBSERVATIONS &&
-           due_observations_take(&loop->due, due, &inputs->observation[inputs->n_observations]))
+           due_observations_take(waiting, due, &inputs->observation[inputs->n_observations]))
         inputs->n_observations++;
     return true;
 }
 
 /* The simulator holds the clock: a run's bytes must not depend on how fast the disk is. */
-static void await_store(struct loop *loop)
+static void await_store(struct step *step)
 {
     const struct timespec moment = {.tv_nsec = 1000000};
 
-    while (tick_awaits_store(loop->tick) && !loop_ending(loop)) {
+    while (tick_awaits_store(step->tick) && !step_ending(step)) {
         nanosleep(&moment, NULL);
-        watchdog_feed(loop->watchdog, NULL);
+        watchdog_feed(step->watchdog, NULL);
     }
 }
 
-static void learn_quota(struct loop *loop)
+static void learn_quota(struct step *step)
 {
-    for (int i = 0; i < loop->config->learner_quota; i++) {
-        await_store(loop);
-        if (!tick_learn(loop->tick))
+    for (int i = 0; i < step->config->learner_quota; i++) {
+        await_store(step);
+        if (!tick_learn(step->tick))
             break;
     }
 }
 
 /* One period of lockstep for a state that was not answered yet. */
-static void step_lockstep(struct loop *loop)
+static void step_lockstep(struct step *step, struct due_observations *waiting)
 {
-    const reach_robot_state_t *state = &loop->received.state;
+    const reach_robot_state_t *state = &step->received.state;
     int64_t begin;
 
-    if (loop->any_state && state->utime < loop->inputs.state.utime)
-        due_observations_init(&loop->due); /* the simulator began anew */
-    if (!wait_for_observation(loop, due_with(loop, state)))
+    if (step->any_state && state->utime < step->inputs.state.utime)
+        due_observations_init(waiting); /* the simulator began anew */
+    if (!wait_for_observation(step, waiting, due_with(step, state)))
         return;
-    await_store(loop);
+    await_store(step);
     begin = bus_monotonic_us();
-    loop->any_state = true;
-    loop->inputs.has_state = true;
-    loop->inputs.state = *state;
-    loop->inputs.state_checksum = loop->received.checksum;
-    loop->inputs.state_age = 0;
-    loop_take_requests(loop);
-    loop_decide(loop, state->utime);
-    timing_add(&loop->compute, (double)(bus_monotonic_us() - begin));
-    learn_quota(loop);
-    loop_report(loop, state->utime);
+    step->any_state = true;
+    step->inputs.has_state = true;
+    step->inputs.state = *state;
+    step->inputs.state_checksum = step->received.checksum;
+    step->inputs.state_age = 0;
+    step_take_requests(step);
+    step_decide(step, state->utime);
+    duration_histogram_add(&step->compute, (double)(bus_monotonic_us() - begin));
+    learn_quota(step);
+    step_report(step, state->utime);
 }
 
-void loop_run_lockstep(struct loop *loop)
+void clock_run_lockstep(struct step *step)
 {
+    struct due_observations waiting;
     int64_t answered = 0;
 
-    while (!loop_ending(loop)) {
-        if (!mailbox_take(daemon_bus_states(loop->bus), &loop->received)) {
-            wait_for_message(loop, LOOP_WAITS_FOR_STATE);
+    due_observations_init(&waiting);
+    while (!step_ending(step)) {
+        if (!mailbox_take(daemon_bus_states(step->bus), &step->received)) {
+            wait_for_message(step, LOOP_WAITS_FOR_STATE);
             continue;
         }
-        loop_set_waits(loop, LOOP_RUNS);
-        if (loop->received.state.seq == answered && loop->outputs.has_command) {
-            daemon_bus_send_command(loop->bus, &loop->outputs.command); /* it was lost */
+        step_set_waits(step, LOOP_RUNS);
+        if (step->received.state.seq == answered && step->outputs.has_command) {
+            daemon_bus_send_command(step->bus, &step->outputs.command); /* it was lost */
             continue;
         }
-        step_lockstep(loop);
-        answered = loop->received.state.seq;
+        step_lockstep(step, &waiting);
+        answered = step->received.state.seq;
     }
 }

@@ -1,42 +1,42 @@
-#include "daemon/realtime/loop_private.h"
+#include "daemon/realtime/clock.h"
 
+#include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "daemon/control/inputs.h"
-#include "daemon/realtime/grid.h"
+#include "daemon/realtime/sleep_policy.h"
 
-#include <errno.h>
 #include <math.h>
 #include <time.h>
 
 static const double learning_share = 0.6; /* of the period, after which no learning is begun */
 
 /* Real time: whatever has come counts now. */
-static void take_all(struct loop *loop)
+static void take_inputs(struct step *step)
 {
-    struct tick_inputs *inputs = &loop->inputs;
+    struct tick_inputs *inputs = &step->inputs;
     struct received_state received;
 
     inputs->has_state = false;
-    while (mailbox_take(daemon_bus_states(loop->bus), &received)) {
-        if (!inputs_state_ok(loop->config, &received.state)) {
-            loop->bad_states++; /* and hides no good one of the same period */
+    while (mailbox_take(daemon_bus_states(step->bus), &received)) {
+        if (!inputs_state_ok(step->config, &received.state)) {
+            step->bad_states++; /* and hides no good one of the same period */
             continue;
         }
-        loop->received = received;
+        step->received = received;
         inputs->has_state = true;
         inputs->state = received.state;
         inputs->state_checksum = received.checksum;
-        loop->any_state = true;
+        step->any_state = true;
     }
     inputs->state_age =
-        loop->any_state ? (double)(bus_monotonic_us() - loop->received.received) * 1e-6 : INFINITY;
+        step->any_state ? (double)(bus_monotonic_us() - step->received.received) * 1e-6 : INFINITY;
     inputs->n_observations = 0;
     while (inputs->n_observations < TICK_MAX_OBSERVATIONS &&
-           mailbox_take(daemon_bus_observations(loop->bus),
+           mailbox_take(daemon_bus_observations(step->bus),
                         &inputs->observation[inputs->n_observations]))
         inputs->n_observations++;
-    loop_take_requests(loop);
-    inputs->overrunning = loop->overruns_in_a_row >= loop->config->overruns_fault;
+    step_take_requests(step);
+    inputs->overrunning = step->overruns_in_a_row >= step->config->safety_overruns_fault;
 }
 
 static int64_t monotonic_ns(void)
@@ -47,50 +47,42 @@ static int64_t monotonic_ns(void)
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-static void sleep_until(int64_t ns)
-{
-    struct timespec due = {.tv_sec = ns / 1000000000, .tv_nsec = ns % 1000000000};
-
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, NULL) == EINTR)
-        ;
-}
-
 /* Late is what ends after the period that began at `due`, whether it woke late or took long. */
-static void account(struct loop *loop, int64_t due, int64_t period)
+static void account(struct step *step, int64_t due, int64_t period)
 {
     bool late = monotonic_ns() - due > period;
 
-    loop->overruns += late;
-    loop->overruns_in_a_row = late ? loop->overruns_in_a_row + 1 : 0;
+    step->overruns += late;
+    step->overruns_in_a_row = late ? step->overruns_in_a_row + 1 : 0;
 }
 
 /* One period of real time: the command first, then what learning the slack allows. */
-static void step_real_time(struct loop *loop, int64_t due, int64_t period)
+static void step_real_time(struct step *step, int64_t due, int64_t period)
 {
     int64_t woken = monotonic_ns();
     int64_t learn_until = woken + (int64_t)(learning_share * (double)period);
     int64_t now = bus_utime();
 
-    timing_add(&loop->wakeup, (double)(woken - due) * 1e-3);
-    take_all(loop);
-    loop->inputs.robot_rests = (double)(woken - due) * 1e-9 > loop->config->loop_stall;
-    loop_decide(loop, now);
-    timing_add(&loop->compute, (double)(monotonic_ns() - woken) * 1e-3);
-    while (monotonic_ns() < learn_until && tick_learn(loop->tick))
+    duration_histogram_add(&step->wakeup, (double)(woken - due) * 1e-3);
+    take_inputs(step);
+    step->inputs.robot_rests = (double)(woken - due) * 1e-9 > step->config->safety_loop_stall;
+    step_decide(step, now);
+    duration_histogram_add(&step->compute, (double)(monotonic_ns() - woken) * 1e-3);
+    while (monotonic_ns() < learn_until && tick_learn(step->tick))
         ;
-    loop_report(loop, now);
-    account(loop, due, period);
+    step_report(step, now);
+    account(step, due, period);
 }
 
-void loop_run_real_time(struct loop *loop)
+void clock_run_real_time(struct step *step)
 {
-    int64_t period = (int64_t)(loop->config->period * 1e9);
+    int64_t period = (int64_t)(step->config->period * 1e9);
     int64_t due = monotonic_ns() + period;
 
-    while (!loop_ending(loop)) {
+    while (!step_ending(step)) {
         sleep_until(due);
-        step_real_time(loop, due, period);
-        due = grid_next(due, monotonic_ns(), period, &loop->inputs.slipped);
-        loop->slips += loop->inputs.slipped;
+        step_real_time(step, due, period);
+        due = sleep_policy_next(due, monotonic_ns(), period, &step->inputs.slipped);
+        step->slips += step->inputs.slipped;
     }
 }

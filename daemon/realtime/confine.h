@@ -1,9 +1,10 @@
 /* Which system calls the loop thread may make: a short list in confine.c, and no other.
  *
- * The promise "no allocation from the system, no lock that waits, no file, no socket in the loop"
- * is kept by the kernel (seccomp): a call that is not on the list does not happen. The thread then
- * stands still for good, the watchdog (watchdog.h) stops the arm, says which call it was and ends
- * the process, so that a supervisor can start a healthy one. */
+ * The promise "no memory from the system, no file, no socket in the loop" is kept by the kernel
+ * (seccomp): a call that is not on the list does not happen. The thread then stands still for good,
+ * the watchdog (watchdog.h) stops the arm, says which call it was and ends the process, so that a
+ * supervisor can start a healthy one. A lock that waits passes, since it is a futex like the
+ * semaphores: that there is none is shown by tools/dev/loop_stack.py. */
 #ifndef REACH_DAEMON_REALTIME_CONFINE_H
 #define REACH_DAEMON_REALTIME_CONFINE_H
 

@@ -7,7 +7,7 @@ void due_observations_init(struct due_observations *observations)
     memset(observations, 0, sizeof *observations);
 }
 
-static int find(const struct due_observations *observations, int64_t utime)
+static int find_waiting(const struct due_observations *observations, int64_t utime)
 {
     for (int i = 0; i < observations->n; i++)
         if (observations->waiting[i].utime == utime)
@@ -15,7 +15,7 @@ static int find(const struct due_observations *observations, int64_t utime)
     return -1;
 }
 
-static int latest(const struct due_observations *observations)
+static int latest_waiting(const struct due_observations *observations)
 {
     int index = 0;
 
@@ -30,20 +30,21 @@ void due_observations_add(struct due_observations *observations,
 {
     int last;
 
-    if (observation->utime <= observations->newest || find(observations, observation->utime) >= 0)
+    if (observation->utime <= observations->newest ||
+        find_waiting(observations, observation->utime) >= 0)
         return;
     if (observations->n < TICK_MAX_OBSERVATIONS) {
         observations->waiting[observations->n++] = *observation;
         return;
     }
-    last = latest(observations);
+    last = latest_waiting(observations);
     if (observation->utime < observations->waiting[last].utime)
         observations->waiting[last] = *observation;
 }
 
 bool due_observations_ready(const struct due_observations *observations, int64_t due)
 {
-    return due <= observations->newest || find(observations, due) >= 0;
+    return due <= observations->newest || find_waiting(observations, due) >= 0;
 }
 
 bool due_observations_take(struct due_observations *observations, int64_t due,

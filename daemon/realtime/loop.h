@@ -5,19 +5,13 @@
 #include "daemon/bus/bus.h"
 #include "daemon/config/config.h"
 #include "daemon/control/tick.h"
+#include "daemon/realtime/loop_wait.h"
 #include "daemon/realtime/watchdog.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 struct loop;
-
-/* What the loop is doing, for the thread that keeps house. */
-enum loop_wait {
-    LOOP_RUNS,
-    LOOP_WAITS_FOR_STATE,       /* lockstep: the simulator holds the clock */
-    LOOP_WAITS_FOR_OBSERVATION, /* lockstep: vision or the robot has not told yet */
-};
 
 size_t loop_memory(void);
 
@@ -40,12 +34,6 @@ const struct config *loop_offer_config(struct loop *loop, const struct config *c
 void loop_stop(struct loop *loop);
 
 int64_t loop_ticks(const struct loop *loop);
-
-/* The supervisor's state after the newest tick, and why it is a fault: constants of status_t. */
-struct loop_state {
-    int8_t state, fault;
-};
-struct loop_state loop_state(const struct loop *loop);
 
 enum loop_wait loop_waits(const struct loop *loop);
 

@@ -26,10 +26,10 @@ struct watchdog {
     struct mailbox *commands; /* from the loop: what it sent */
     _Atomic int64_t beats;
     _Atomic int braked;
-    _Atomic bool stalled;
     _Atomic bool ending;
     /* The watchdog's thread alone: */
     struct stall stall;
+    bool stalled;
     bool has_command;
     reach_robot_command_t command; /* newest that went out */
     int64_t said;                  /* when the log was last told, us */
@@ -84,11 +84,6 @@ int watchdog_take_braked(struct watchdog *watchdog)
     return atomic_exchange_explicit(&watchdog->braked, 0, memory_order_acq_rel);
 }
 
-bool watchdog_loop_alive(const struct watchdog *watchdog)
-{
-    return !atomic_load_explicit(&watchdog->stalled, memory_order_relaxed);
-}
-
 /* What stopped the loop for good: nothing can mend that, and a core tells the developer more. */
 static void end_when_forbidden(const struct watchdog *watchdog)
 {
@@ -122,20 +117,20 @@ static void brake(struct watchdog *watchdog)
     atomic_fetch_add_explicit(&watchdog->braked, 1, memory_order_acq_rel);
 }
 
-static void look(struct watchdog *watchdog)
+static void look_at_loop(struct watchdog *watchdog)
 {
     int64_t now = bus_monotonic_us();
-    int64_t patience =
-        watchdog->brakes ? (int64_t)(watchdog->config->loop_stall * 1e6) : lockstep_patience_us;
+    int64_t patience = watchdog->brakes ? (int64_t)(watchdog->config->safety_loop_stall * 1e6)
+                                        : lockstep_patience_us;
     int64_t beats = atomic_load_explicit(&watchdog->beats, memory_order_acquire);
     bool stalled = stall_seen(&watchdog->stall, beats, patience, now) || confine_violation() >= 0;
 
     /* While the loop stands still, `command` is what braking has come to. */
     while (mailbox_take(watchdog->commands, &watchdog->command))
         watchdog->has_command = true;
-    if (!stalled && !watchdog_loop_alive(watchdog))
+    if (!stalled && watchdog->stalled)
         log_warning("the loop moves again");
-    atomic_store_explicit(&watchdog->stalled, stalled, memory_order_relaxed);
+    watchdog->stalled = stalled;
     if (!stalled)
         return;
     if (confine_violation() < 0)
@@ -157,15 +152,15 @@ static void *watch(void *user)
             daemon_bus_raise_emergency(watchdog->bus);
             log_warning("SIGUSR1: emergency stop");
         }
-        look(watchdog);
+        look_at_loop(watchdog);
     }
     return NULL;
 }
 
 int watchdog_start(struct watchdog *watchdog, bool real_time, char *error, size_t error_size)
 {
-    return realtime_thread(&watchdog->thread, real_time ? REALTIME_PRIORITY_WATCHDOG : 0, watch,
-                           watchdog, error, error_size);
+    return thread_start(&watchdog->thread, real_time ? THREAD_PRIORITY_WATCHDOG : 0, watch,
+                        watchdog, error, error_size);
 }
 
 void watchdog_stop(struct watchdog *watchdog)

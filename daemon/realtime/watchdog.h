@@ -37,7 +37,4 @@ void watchdog_feed(struct watchdog *watchdog, const reach_robot_command_t *comma
 /* For the loop thread: how many braking commands went out since it was last asked. */
 int watchdog_take_braked(struct watchdog *watchdog);
 
-/* For whoever feeds a watchdog further out, from any thread: false while the loop stands still. */
-bool watchdog_loop_alive(const struct watchdog *watchdog);
-
 #endif

@@ -90,7 +90,7 @@ static int replay_file(FILE *file, const struct replay_settings *settings, char 
     return result;
 }
 
-int loop_replay_log(const char *path, const struct replay_settings *settings, char *error,
+int player_play_log(const char *path, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
     FILE *file = fopen(path, "rb");
@@ -182,7 +182,7 @@ static void print_lost(const struct replay_report *report)
                    replay_channels[i], (long long)report->lost[i].first);
 }
 
-static int play(lcm_t *lcm, struct playing *playing)
+static int play_until_told(lcm_t *lcm, struct playing *playing)
 {
     while (!playing->failed && !told_to_end())
         if (lcm_handle_timeout(lcm, poll_ms) < 0 && errno != EINTR)
@@ -190,7 +190,7 @@ static int play(lcm_t *lcm, struct playing *playing)
     return playing->failed ? -1 : 0;
 }
 
-int loop_replay_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
+int player_play_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
     struct playing *playing = calloc(1, sizeof *playing);
@@ -204,7 +204,7 @@ int loop_replay_bus(lcm_t *lcm, const struct replay_settings *settings, char *er
         outgoing_init(&playing->out, lcm, "REPLAY_");
         snprintf(playing->error, sizeof playing->error, "the bus failed");
         log_info("ready for lcm-logplayer");
-        result = subscribe(lcm, playing) ? -1 : play(lcm, playing);
+        result = subscribe(lcm, playing) ? -1 : play_until_told(lcm, playing);
         say_revision(replay_report(playing->replay));
         print_report(replay_report(playing->replay), 0,
                      settings->verify && result == 0 && !any_lost(replay_report(playing->replay)));

@@ -9,13 +9,13 @@
 
 /* The whole log. Prints what it did. `settings` without a sink. Returns
  * 0, or -1 with one line in `error`. */
-int loop_replay_log(const char *path, const struct replay_settings *settings, char *error,
+int player_play_log(const char *path, const struct replay_settings *settings, char *error,
                     size_t error_size);
 
 /* What comes on the bus until SIGINT or SIGTERM, which must be blocked; sends what the daemon would
  * have sent on the same channels with "REPLAY_" before their names. Prints what it did and what was
  * lost. Returns as above. */
-int loop_replay_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
+int player_play_bus(lcm_t *lcm, const struct replay_settings *settings, char *error,
                     size_t error_size);
 
 #endif

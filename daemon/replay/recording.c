@@ -1,7 +1,7 @@
 #include "daemon/replay/recording.h"
 
 #include "common/base/big_endian.h"
-#include "daemon/bus/incoming.h"
+#include "common/base/checksum.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -16,7 +16,7 @@ void recording_add(struct recording *recording, const void *data, size_t size, i
         return;
     recorded->seq = (int64_t)big_endian((const unsigned char *)data + SEQ_AT, 8);
     recorded->position = position;
-    recorded->checksum = incoming_checksum(data, size);
+    recorded->checksum = checksum_crc32(data, size);
     recorded->size = size;
     memcpy(recorded->bytes, data, size);
     recording->n++;

@@ -1,26 +1,24 @@
 #include "daemon/replay/replay.h"
 
 #include "common/base/big_endian.h"
+#include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/control/trace.h"
 #include "daemon/replay/replay_private.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *const replay_channels[REPLAY_CHANNELS] = {
-    "ROBOT_STATE",  "MARKER",       "END_EFFECTOR", "REACH_REQUEST", "ROBOT_COMMAND",
-    "REACH_SAMPLE", "REACH_STATUS", "REACH_TRACE",  "REACH_CONFIG",
-};
 
 struct replay *replay_create(const struct replay_settings *settings)
 {
     struct replay *replay = calloc(1, sizeof *replay);
 
-    if (replay)
-        replay->settings = *settings;
+    if (!replay)
+        return NULL;
+    replay->settings = *settings;
+    replay->store.paths = settings->models;
+    replay->store.n_paths = settings->n_models;
     return replay;
 }
 
@@ -29,50 +27,15 @@ void replay_destroy(struct replay *replay)
     if (!replay)
         return;
     arena_destroy(replay->arena);
-    arena_destroy(replay->spare);
+    recorded_store_close(&replay->store);
     free(replay);
-}
-
-const struct replay_report *replay_report(const struct replay *replay)
-{
-    return &replay->report;
-}
-
-int replay_fail(const struct replay *replay, char *error, size_t error_size, const char *format,
-                ...)
-{
-    char what[REPLAY_REASON];
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    if (replay->settings.lossy) /* the bus has no places */
-        snprintf(error, error_size, "tick %lld: %s", (long long)replay->trace.seq, what);
-    else
-        snprintf(error, error_size, "byte %lld: tick %lld: %s", (long long)replay->position,
-                 (long long)replay->trace.seq, what);
-    return -1;
-}
-
-int replay_miss(struct replay *replay, enum replay_channel channel, int64_t first, int64_t n,
-                const char *what, char *error, size_t error_size)
-{
-    struct replay_lost *lost = &replay->report.lost[channel];
-
-    if (!replay->settings.lossy)
-        return replay_fail(replay, error, error_size, "%s %s %lld is not in the log", what,
-                           replay_channels[channel], (long long)first);
-    if (lost->n == 0)
-        lost->first = first;
-    lost->n += n;
-    return 0;
 }
 
 /* The message that the tick was given. One that is there with other bytes was altered. Returns 1
  * with it, 0 when it is missing and that is allowed, else -1. */
-static int find(struct replay *replay, enum replay_channel channel, int64_t seq, int32_t checksum,
-                const struct recorded **found, char *error, size_t error_size)
+static int find_given(struct replay *replay, enum replay_channel channel, int64_t seq,
+                      int32_t checksum, const struct recorded **found, char *error,
+                      size_t error_size)
 {
     const struct recording *recording = &replay->recording[channel];
 
@@ -107,8 +70,8 @@ static int give_state(struct replay *replay, char *error, size_t error_size)
 
     if (!trace->has_state)
         return 0;
-    result = find(replay, REPLAY_STATE, trace->given_state, trace->state_checksum, &found, error,
-                  error_size);
+    result = find_given(replay, REPLAY_STATE, trace->given_state, trace->state_checksum, &found,
+                        error, error_size);
     if (result <= 0)
         return result;
     if (!incoming_state(found->bytes, found->size, &inputs->state))
@@ -127,8 +90,8 @@ static int give_observations(struct replay *replay, char *error, size_t error_si
 
     for (int i = 0; i < trace->n_observations; i++) {
         const struct recorded *found;
-        int result = find(replay, channel, trace->observation[i], trace->observation_checksum[i],
-                          &found, error, error_size);
+        int result = find_given(replay, channel, trace->observation[i],
+                                trace->observation_checksum[i], &found, error, error_size);
         if (result < 0)
             return -1;
         if (result == 0)
@@ -147,8 +110,8 @@ static int give_requests(struct replay *replay, char *error, size_t error_size)
 
     for (int i = 0; i < trace->n_requests; i++) {
         const struct recorded *found;
-        int result = find(replay, REPLAY_REQUEST, trace->request[i], trace->request_checksum[i],
-                          &found, error, error_size);
+        int result = find_given(replay, REPLAY_REQUEST, trace->request[i],
+                                trace->request_checksum[i], &found, error, error_size);
         if (result < 0)
             return -1;
         if (result == 0)
@@ -238,7 +201,7 @@ static int decode_trace(struct replay *replay, const void *data, size_t size, ch
     if (size < 8 || (int64_t)big_endian(data, 8) != fingerprint)
         return another_version("REACH_TRACE", replay->position, error, error_size);
     if (size == covered + 4 && reach_trace_t_decode(data, 0, (int)size, trace) == (int)size &&
-        (uint32_t)trace->checksum == incoming_checksum(data, covered) && is_sound(trace))
+        (uint32_t)trace->checksum == checksum_crc32(data, covered) && is_sound(trace))
         return 0;
     snprintf(error, error_size,
              "byte %lld: the checksum of this REACH_TRACE is wrong; the log was altered",

@@ -1,14 +1,14 @@
-/* The replay's state, for the files that make it up: replay.c (messages in, ticks out),
- * replay/run.c (the beginning of a run: configuration and model), verify.c (what ticks
- * sent). */
+/* The replay's state, for the files that make it up: replay.c (messages in, ticks out), which calls
+ * run.c (the beginning of a run: configuration and model) and verify.c (what ticks sent); and
+ * report.c (what went wrong), which all of them call. */
 #ifndef REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 #define REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
+#include "daemon/replay/recorded_store.h"
 #include "daemon/replay/recording.h"
 #include "daemon/replay/replay.h"
-#include "learner/store/model_file.h"
 
 enum { REPLAY_CONFIGS = 64, REPLAY_REASON = 400 };
 
@@ -24,11 +24,8 @@ struct replay {
     struct tick *tick;       /* NULL = none has begun */
     struct config config[2]; /* used in turn, so that the tick can go over from one to the other */
     const struct config *used;
-    struct arena *spare; /* of the learner that models are read into, once one is needed */
-    struct model_bytes model;
-    struct model_store_recorded store;
-    uint64_t model_hash; /* of what the learner was given whole */
-    int64_t seq;         /* of the newest tick */
+    struct recorded_store store;
+    int64_t seq; /* of the newest tick */
 
     /* The tick at hand. */
     int64_t position; /* of its trace */

@@ -1,9 +1,9 @@
 /* The beginning of a run: the configuration and the model that it had. */
 #include "daemon/replay/replay_private.h"
 
-#include "daemon/reload.h"
+#include "daemon/config/load.h"
+#include "daemon/config/reloadable.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -72,82 +72,32 @@ int replay_follow_config(struct replay *replay, char *error, size_t error_size)
     config = load_config(replay, error, error_size);
     if (!config)
         return -1;
-    if (!reload_allowed(replay->used, config, &changes, reason, sizeof reason))
+    if (!config_reloadable(replay->used, config, &changes, reason, sizeof reason))
         return replay_fail(replay, error, error_size, "%s", reason);
     replay->used = replay->inputs.config = config;
-    return 0;
-}
-
-/* The learner that models are read into, and space for their bytes. */
-static int create_spare(struct replay *replay, char *error, size_t error_size)
-{
-    struct learner_config learner = config_learner(replay->used);
-    size_t bytes = learner_memory(&learner);
-    char reason[REPLAY_REASON / 2] = "out of memory";
-
-    if (replay->spare)
-        return 0;
-    replay->spare = arena_create(bytes + arena_footprint(bytes));
-    replay->store.learner = NULL;
-    if (replay->spare) {
-        replay->store.learner = learner_create(&learner, replay->spare, reason, sizeof reason);
-        replay->model =
-            (struct model_bytes){.bytes = arena_alloc(replay->spare, bytes), .capacity = bytes};
-    }
-    if (replay->store.learner && replay->model.bytes)
-        return 0;
-    return replay_fail(replay, error, error_size, "%s", reason);
-}
-
-/* The file among those that were given whose hash is the one wanted. */
-static int read_model(struct replay *replay, uint64_t hash, char *error, size_t error_size)
-{
-    char reason[MODEL_REASON_MOST];
-
-    for (int i = 0; i < replay->settings.n_models; i++) {
-        const char *path = replay->settings.models[i];
-        if (model_file_read(&files_system, path, &replay->model, reason, sizeof reason) !=
-            MODEL_FILE_READ)
-            return replay_fail(replay, error, error_size, "%s", reason);
-        if (replay->model.hash != hash)
-            continue;
-        if (learner_load(replay->store.learner, replay->model.bytes, replay->model.size, reason,
-                         sizeof reason))
-            return replay_fail(replay, error, error_size, "%s: %s", path, reason);
-        return 0;
-    }
-    return replay_fail(replay, error, error_size,
-                       "it has a model of hash %016" PRIx64 ", and no --model file has that", hash);
-}
-
-/* The model that the trace names, when it is another one than the tick has. */
-static int follow_model(struct replay *replay, char *error, size_t error_size)
-{
-    uint64_t hash = (uint64_t)replay->trace.model;
-
-    if (hash == replay->model_hash)
-        return 0;
-    if (create_spare(replay, error, error_size) || read_model(replay, hash, error, error_size))
-        return -1;
-    replay->model_hash = hash;
-    replay->store.take = true;
     return 0;
 }
 
 int replay_follow_store(struct replay *replay, char *error, size_t error_size)
 {
     const reach_trace_t *trace = &replay->trace;
-
-    replay->store.moment = (struct model_store_moment){
-        .result = (enum model_store_result)trace->store_result,
+    const struct learner_config learner = config_learner(replay->used);
+    const struct model_moment moment = {
+        .result = (enum model_result)trace->store_result,
         .ready = trace->store_ready != 0,
         .model = (uint64_t)trace->model,
     };
-    return follow_model(replay, error, error_size);
+    char reason[MODEL_REASON_MOST];
+
+    if (recorded_store_follow(&replay->store, &learner, &moment, reason, sizeof reason))
+        return replay_fail(replay, error, error_size, "%s", reason);
+    return 0;
 }
 
 static int create_tick(struct replay *replay, char *error, size_t error_size)
 {
+    const struct tick_settings settings = {.config = replay->used,
+                                           .model = recorded_store_port(&replay->store)};
     size_t bytes = tick_memory(replay->used);
     char reason[REPLAY_REASON / 2] = "out of memory";
 
@@ -157,32 +107,39 @@ static int create_tick(struct replay *replay, char *error, size_t error_size)
                            most_bytes >> 20);
     replay->arena = arena_create(bytes);
     if (replay->arena)
-        replay->tick = tick_create(replay->used, replay->arena, reason, sizeof reason);
+        replay->tick = tick_create(&settings, replay->arena, reason, sizeof reason);
     if (!replay->tick)
+        return replay_fail(replay, error, error_size, "%s", reason);
+    return 0;
+}
+
+/* The model that the run began with. */
+static int open_model(struct replay *replay, char *error, size_t error_size)
+{
+    const struct learner_config learner = config_learner(replay->used);
+    char reason[MODEL_REASON_MOST];
+
+    if (recorded_store_open(&replay->store, &learner, (uint64_t)replay->trace.model,
+                            tick_learner(replay->tick), reason, sizeof reason))
         return replay_fail(replay, error, error_size, "%s", reason);
     return 0;
 }
 
 static void end_run(struct replay *replay)
 {
+    recorded_store_close(&replay->store);
     arena_destroy(replay->arena);
-    arena_destroy(replay->spare);
-    replay->arena = replay->spare = NULL;
+    replay->arena = NULL;
     replay->tick = NULL;
-    replay->model_hash = 0;
-    memset(&replay->store, 0, sizeof replay->store);
 }
 
 int replay_begin_run(struct replay *replay, char *error, size_t error_size)
 {
     end_run(replay);
     replay->used = load_config(replay, error, error_size);
-    if (!replay->used || create_tick(replay, error, error_size) ||
-        follow_model(replay, error, error_size)) {
-        end_run(replay);
-        return -1;
-    }
-    model_store_replay(tick_model_store(replay->tick), &replay->store);
-    tick_take_recorded_model(replay->tick);
-    return 0;
+    if (replay->used && create_tick(replay, error, error_size) == 0 &&
+        open_model(replay, error, error_size) == 0)
+        return 0;
+    end_run(replay);
+    return -1;
 }

@@ -22,7 +22,7 @@ static const void *replayed_message(const struct tick_outputs *outputs, enum out
     }
 }
 
-static void put(struct outgoing *message, enum outgoing_kind kind, const void *from)
+static void put_message(struct outgoing *message, enum outgoing_kind kind, const void *from)
 {
     const lcm_type_info_t *type = outgoing_type(kind);
 
@@ -31,11 +31,12 @@ static void put(struct outgoing *message, enum outgoing_kind kind, const void *f
 }
 
 /* Compares replay->recorded with replay->replayed. */
-static int compare(struct replay *replay, enum outgoing_kind kind, char *error, size_t error_size)
+static int compare_message(struct replay *replay, enum outgoing_kind kind, char *error,
+                           size_t error_size)
 {
     char difference[REPLAY_REASON / 2];
 
-    put(&replay->replayed, kind, replayed_message(&replay->outputs, kind));
+    put_message(&replay->replayed, kind, replayed_message(&replay->outputs, kind));
     replay_take_measured(&replay->recorded, &replay->replayed);
     if (replay_same(&replay->recorded, &replay->replayed, difference, sizeof difference))
         return 0;
@@ -53,8 +54,8 @@ static int decode(struct replay *replay, enum outgoing_kind kind, const struct r
 }
 
 /* One message of number `seq`, which was sent with this checksum. */
-static int verify(struct replay *replay, enum outgoing_kind kind, int64_t seq, int32_t checksum,
-                  char *error, size_t error_size)
+static int verify_message(struct replay *replay, enum outgoing_kind kind, int64_t seq,
+                          int32_t checksum, char *error, size_t error_size)
 {
     enum replay_channel channel = channel_of[kind];
     const struct recording *recording = &replay->recording[channel];
@@ -69,7 +70,7 @@ static int verify(struct replay *replay, enum outgoing_kind kind, int64_t seq, i
         return replay_fail(replay, error, error_size,
                            "the %s at byte %lld cannot be read; the log was altered",
                            replay_channels[channel], (long long)found->position);
-    if (compare(replay, kind, error, error_size))
+    if (compare_message(replay, kind, error, error_size))
         return -1;
     if (altered)
         return replay_fail(replay, error, error_size,
@@ -87,7 +88,7 @@ static int verify_if_sent(struct replay *replay, enum outgoing_kind kind, bool s
         return replay_fail(replay, error, error_size, "%s: recorded %s, replayed %s",
                            outgoing_channel(kind), checksum ? "one" : "none",
                            sends ? "one" : "none");
-    return sends ? verify(replay, kind, seq, checksum, error, error_size) : 0;
+    return sends ? verify_message(replay, kind, seq, checksum, error, error_size) : 0;
 }
 
 int replay_verify(struct replay *replay, char *error, size_t error_size)
@@ -99,8 +100,9 @@ int replay_verify(struct replay *replay, char *error, size_t error_size)
                        trace->command_checksum, error, error_size) ||
         verify_if_sent(replay, OUTGOING_SAMPLE, outputs->has_sample, outputs->sample.seq,
                        trace->sample_checksum, error, error_size) ||
-        verify(replay, OUTGOING_STATUS, trace->seq, trace->status_checksum, error, error_size))
+        verify_message(replay, OUTGOING_STATUS, trace->seq, trace->status_checksum, error,
+                       error_size))
         return -1;
-    put(&replay->recorded, OUTGOING_TRACE, trace);
-    return compare(replay, OUTGOING_TRACE, error, error_size);
+    put_message(&replay->recorded, OUTGOING_TRACE, trace);
+    return compare_message(replay, OUTGOING_TRACE, error, error_size);
 }

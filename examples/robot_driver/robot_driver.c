@@ -112,7 +112,7 @@ static int step(struct driver *driver)
 }
 
 /* On the grid of periods, whatever a step takes. Returns 0, or -1 when the robot fails. */
-static int run(struct driver *driver)
+static int drive_on_grid(struct driver *driver)
 {
     struct timespec next;
 
@@ -147,7 +147,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     reach_robot_command_t_subscribe(driver.lcm, "ROBOT_COMMAND", on_command, &driver);
-    failed = run(&driver);
+    failed = drive_on_grid(&driver);
     robot_close();
     lcm_destroy(driver.lcm);
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;

@@ -1,18 +1,13 @@
 #include "learner/service/bus.h"
 
 #include "common/base/mailbox.h"
-#include "common/base/thread.h"
+#include "common/bus/receiver.h"
 
-#include "common/program/log.h"
-
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 
 #define QUEUE 256   /* requests; a power of two */
 #define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
-
-static const int poll_ms = 100; /* how soon the thread sees that it is to end */
 
 struct service_bus {
     lcm_t *lcm;
@@ -20,8 +15,7 @@ struct service_bus {
     void (*arrived)(void *user);
     void *user;
     _Atomic int64_t malformed;
-    _Atomic bool ending;
-    pthread_t receiver;
+    struct bus_receiver receiver;
 };
 
 size_t service_bus_memory(void)
@@ -66,26 +60,14 @@ struct service_bus *service_bus_create(lcm_t *lcm, void (*arrived)(void *user), 
     return bus;
 }
 
-static void *receive(void *user)
-{
-    struct service_bus *bus = user;
-
-    pthread_setname_np(pthread_self(), "learner-receive");
-    while (!atomic_load_explicit(&bus->ending, memory_order_relaxed))
-        if (lcm_handle_timeout(bus->lcm, poll_ms) < 0)
-            log_error("the bus failed to receive");
-    return NULL;
-}
-
 int service_bus_start(struct service_bus *bus, char *error, size_t error_size)
 {
-    return realtime_thread(&bus->receiver, 0, receive, bus, error, error_size);
+    return bus_receiver_start(&bus->receiver, bus->lcm, "learner-receive", 0, error, error_size);
 }
 
 void service_bus_stop(struct service_bus *bus)
 {
-    atomic_store_explicit(&bus->ending, true, memory_order_relaxed);
-    pthread_join(bus->receiver, NULL);
+    bus_receiver_stop(&bus->receiver);
 }
 
 bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request)

@@ -24,7 +24,7 @@ struct clients *clients_create(struct arena *arena)
     return arena_alloc(arena, sizeof(struct clients));
 }
 
-static struct client *find(struct clients *clients, int64_t number)
+static struct client *find_client(struct clients *clients, int64_t number)
 {
     for (int i = 0; i < CLIENTS_MOST; i++)
         if (clients->client[i].heard && clients->client[i].number == number)
@@ -45,7 +45,7 @@ static struct client *oldest(struct clients *clients)
 
 void clients_admit(struct clients *clients, int64_t client, int64_t seq)
 {
-    struct client *known = find(clients, client);
+    struct client *known = find_client(clients, client);
 
     if (!known) {
         known = oldest(clients);
@@ -59,7 +59,7 @@ void clients_admit(struct clients *clients, int64_t client, int64_t seq)
 enum clients_verdict clients_look(struct clients *clients, int64_t client, int64_t seq,
                                   struct deed **deed)
 {
-    struct client *known = find(clients, client);
+    struct client *known = find_client(clients, client);
 
     if (!known)
         return CLIENTS_UNKNOWN;

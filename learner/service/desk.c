@@ -122,7 +122,8 @@ static int8_t update(struct desk *desk, const reach_learner_request_t *request, 
     return REPLY(DONE);
 }
 
-static int8_t save(struct desk *desk, const reach_learner_request_t *request, struct deed *deed)
+static int8_t begin_save(struct desk *desk, const reach_learner_request_t *request,
+                         struct deed *deed)
 {
     if (desk->saving)
         return REPLY(BUSY);
@@ -155,7 +156,7 @@ static void act(struct desk *desk, const reach_learner_request_t *request, bool 
     case CLIENTS_NEW:
         deed->status = late                               ? REPLY(LATE)
                        : request->kind == REQUEST(UPDATE) ? update(desk, request, deed)
-                                                          : save(desk, request, deed);
+                                                          : begin_save(desk, request, deed);
         if (deed->status == REPLY(DONE))
             *place = *deed;
         break;
@@ -243,8 +244,8 @@ enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *req
 }
 
 /* Answers, and remembers that it was answered. */
-static void answer(struct desk *desk, struct waiting *waiting, int64_t now,
-                   reach_learner_reply_t *reply)
+static void answer_waiting(struct desk *desk, struct waiting *waiting, int64_t now,
+                           reach_learner_reply_t *reply)
 {
     struct deed *place;
 
@@ -281,11 +282,11 @@ bool desk_due(struct desk *desk, int64_t now, reach_learner_reply_t *reply)
     struct waiting waiting;
 
     if (update_is_due(desk, &waiting)) {
-        answer(desk, &waiting, now, reply);
+        answer_waiting(desk, &waiting, now, reply);
         return true;
     }
     if (!save_is_due(desk))
         return false;
-    answer(desk, &desk->save, now, reply);
+    answer_waiting(desk, &desk->save, now, reply);
     return true;
 }

@@ -4,9 +4,7 @@
 #include "common/bus/open.h"
 #include "common/options/command_line.h"
 #include "common/program/log.h"
-#include "common/program/version.h"
 
-#include <getopt.h>
 #include <reach_hello_t.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,89 +17,24 @@ struct arguments {
     bool check_model;
 };
 
-static const char usage[] =
-    "usage: reach-learner --config FILE [options]\n"
-    "Learns, for others on the LCM bus, a map that may have several values: "
-    "docs/learner-service.md.\n\n"
-    "  -c, --config FILE     YAML configuration, such as etc/reach-learner.yaml; given again, the\n"
-    "                        later file overrides the earlier one\n"
-    "  -s, --set NAME=VALUE  override one option of it (may be repeated)\n"
-    "  -u, --url URL         LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")\n"
-    "      --check-model     print the samples and the hash of the model in model.directory, or "
-    "what\n"
-    "                        is wrong with it, and change nothing\n"
-    "      --help-options    list every option of the configuration\n"
-    "      --version         print the version\n"
-    "  -h, --help            print this\n\n"
-    "Exit status: 0 ended as asked, 1 could not start or run, 2 wrong usage.\n";
+static const struct argument_row rows[] = {
+    ARGUMENT_SOURCES(struct arguments, configuration, "etc/reach-learner.yaml"),
+    ARGUMENT_URL(struct arguments, url),
+    ARGUMENT_ON("check-model", 0, struct arguments, check_model,
+                "print the samples and the hash of the model in model.directory, or what is wrong "
+                "with it, and change nothing"),
+    ARGUMENT_END,
+};
 
-enum { OPTION_CHECK_MODEL = 256, OPTION_HELP_OPTIONS, OPTION_VERSION };
-
-static int wrong_usage(const char *what)
-{
-    fprintf(stderr, "reach-learner: %s; reach-learner --help tells more\n", what);
-    return 2;
-}
-
-static int go_on_unless(const char *wrong)
-{
-    return wrong ? wrong_usage(wrong) : -1;
-}
-
-/* Returns -1 to go on, or an exit status. */
-static int take_option(struct arguments *arguments, int option)
-{
-    switch (option) {
-    case 'c':
-        return go_on_unless(option_sources_add_path(&arguments->configuration, optarg));
-    case 's':
-        return go_on_unless(option_sources_add_override(&arguments->configuration, optarg));
-    case 'u':
-        arguments->url = optarg;
-        return -1;
-    case OPTION_CHECK_MODEL:
-        arguments->check_model = true;
-        return -1;
-    case OPTION_HELP_OPTIONS:
-        settings_print(stdout);
-        return 0;
-    case OPTION_VERSION:
-        printf("reach-learner %s\n", reach_version);
-        return 0;
-    case 'h':
-        fputs(usage, stdout);
-        return 0;
-    default:
-        return wrong_usage("unknown option or missing value");
-    }
-}
-
-static int parse(struct arguments *arguments, int argc, char **argv)
-{
-    static const struct option words[] = {
-        {"config", required_argument, NULL, 'c'},
-        {"set", required_argument, NULL, 's'},
-        {"url", required_argument, NULL, 'u'},
-        {"check-model", no_argument, NULL, OPTION_CHECK_MODEL},
-        {"help-options", no_argument, NULL, OPTION_HELP_OPTIONS},
-        {"version", no_argument, NULL, OPTION_VERSION},
-        {"help", no_argument, NULL, 'h'},
-        {NULL, 0, NULL, 0},
-    };
-    int option;
-
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, "c:s:u:h", words, NULL)) != -1) {
-        int status = take_option(arguments, option);
-        if (status >= 0)
-            return status;
-    }
-    if (optind < argc)
-        return wrong_usage("unexpected argument");
-    if (arguments->configuration.n_paths == 0)
-        return wrong_usage("--config is missing");
-    return -1;
-}
+static const struct command_line line = {
+    .program = "reach-learner",
+    .usage = "reach-learner --config FILE [options]",
+    .about = "Learns, for others on the LCM bus, a map that may have several values: "
+             "docs/learner-service.md.",
+    .rows = rows,
+    .exit_status = "0 ended as asked, 1 could not start or run",
+    .print_options = settings_print,
+};
 
 static int check_model(const struct settings *settings, char *error, size_t error_size)
 {
@@ -114,8 +47,8 @@ static int check_model(const struct settings *settings, char *error, size_t erro
 }
 
 /* Another service on this bus would answer the same requests. */
-static int run(const struct arguments *arguments, const struct settings *settings, char *error,
-               size_t error_size)
+static int serve_on_bus(const struct arguments *arguments, const struct settings *settings,
+                        char *error, size_t error_size)
 {
     struct bus_claim *claim = NULL;
     lcm_t *lcm = bus_open(arguments->url, error, error_size);
@@ -145,8 +78,10 @@ int main(int argc, char **argv)
     struct arguments arguments = {0};
     struct settings settings;
     char error[1024] = "";
-    int status = parse(&arguments, argc, argv);
+    int status = command_line_parse(&line, argc, argv, &arguments);
 
+    if (status < 0 && arguments.configuration.n_paths == 0)
+        status = command_line_wrong(&line, "--config is missing");
     if (status >= 0)
         return status;
     log_open("reach-learner", LOG_LEVEL_INFO);
@@ -154,7 +89,7 @@ int main(int argc, char **argv)
                            arguments.configuration.n_paths, arguments.configuration.overrides,
                            arguments.configuration.n_overrides, error, sizeof error) ||
              (arguments.check_model ? check_model(&settings, error, sizeof error)
-                                    : run(&arguments, &settings, error, sizeof error));
+                                    : serve_on_bus(&arguments, &settings, error, sizeof error));
     if (status)
         log_error("%s", error);
     return status ? 1 : 0;

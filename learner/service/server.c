@@ -4,7 +4,7 @@
 #include "common/program/log.h"
 #include "common/program/notify.h"
 #include "learner/service/bus.h"
-#include "learner/store/keeper.h"
+#include "learner/store/disk_thread.h"
 
 #include <errno.h>
 #include <semaphore.h>
@@ -23,7 +23,7 @@ struct server {
     struct model_store *store;
     struct desk *desk;
     struct service_bus *bus;
-    struct keeper keeper;
+    struct disk_thread disk;
     bool keeps;
     struct notify_watchdog watchdog;
     int64_t told;
@@ -56,7 +56,7 @@ static void take_signals(void)
     sigaction(SIGTERM, &action, NULL);
 }
 
-static void rest(void)
+static void wait_for_work(void)
 {
     const int64_t until = bus_monotonic_us() + patience_us;
     const struct timespec end = {until / 1000000, until % 1000000 * 1000};
@@ -85,7 +85,7 @@ static bool answer_batch(struct server *server)
         enum desk_answer answer = desk_take(server->desk, &request, bus_utime(), &server->output);
         service_bus_send(server->bus, answer, &server->output);
         if (answer == DESK_SILENT)
-            keeper_wake(&server->keeper);
+            disk_thread_wake(&server->disk);
     }
     return true;
 }
@@ -115,7 +115,7 @@ static void serve(struct server *server)
         answer_due(server);
         tell_service(server);
         if (!more)
-            rest();
+            wait_for_work();
     }
     notify_send("STOPPING=1");
 }
@@ -127,7 +127,7 @@ static void finish(struct server *server)
     while (answer_batch(server))
         ;
     if (server->keeps) {
-        keeper_stop(&server->keeper);
+        disk_thread_stop(&server->disk);
         model_store_serve(server->store, bus_monotonic_us());
     }
     answer_due(server);
@@ -167,14 +167,14 @@ static int start(struct server *server, char *error, size_t error_size)
 {
     if (server->keeps) {
         model_store_serve(server->store, bus_monotonic_us());
-        server->keeper.looked = wake;
-        if (keeper_start(&server->keeper, server->store, error, error_size))
+        server->disk.looked = wake;
+        if (disk_thread_start(&server->disk, server->store, error, error_size))
             return -1;
     }
     if (service_bus_start(server->bus, error, error_size) == 0)
         return 0;
     if (server->keeps)
-        keeper_stop(&server->keeper);
+        disk_thread_stop(&server->disk);
     return -1;
 }
 

@@ -1,7 +1,7 @@
 /* The service at work: requests in, answers out, the model to disk, until a signal ends it.
  *
- * Three threads: this one does what is asked, the bus's receives, the keeper
- * (learner/store/keeper.h) waits for the disk. */
+ * Three threads: this one does what is asked, the bus's receives, the disk's
+ * (learner/store/disk_thread.h) waits for the disk. */
 #ifndef REACH_LEARNER_SERVICE_SERVER_H
 #define REACH_LEARNER_SERVICE_SERVER_H
 

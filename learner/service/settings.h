@@ -3,8 +3,8 @@
 #ifndef REACH_LEARNER_SERVICE_SETTINGS_H
 #define REACH_LEARNER_SERVICE_SETTINGS_H
 
+#include "learner/parameters/yaml.h"
 #include "learner/store/store.h"
-#include "learner/yaml.h"
 
 #include <stddef.h>
 #include <stdio.h>

@@ -41,7 +41,7 @@ struct neighbours {
     int64_t greatest;
 };
 
-static void look_at(void *user, const char *name)
+static void compare_number(void *user, const char *name)
 {
     struct neighbours *found = user;
     const char *suffix = NULL;
@@ -63,7 +63,7 @@ static int find_neighbours(const struct generations *generations, int64_t of,
                            struct neighbours *found)
 {
     *found = (struct neighbours){.of = of, .below = -1, .above = -1, .greatest = -1};
-    return generations->files->list(generations->directory, look_at, found);
+    return generations->files->list(generations->directory, compare_number, found);
 }
 
 /* A recovery on its way. */
@@ -90,7 +90,7 @@ static int load_snapshot(struct work *work, int64_t number)
     return -1;
 }
 
-static void learn(void *user, const struct journal_sample *sample)
+static void learn_sample(void *user, const struct journal_sample *sample)
 {
     learner_update(user, sample->z, sample->x);
 }
@@ -107,7 +107,7 @@ static bool never_began(const struct generations *generations, int64_t number)
            journal_is_empty(generations->files, journal);
 }
 
-static int replay(struct work *work, int64_t number)
+static int learn_journal(struct work *work, int64_t number)
 {
     struct journal_reading reading = {.model = work->model->hash, .number = work->model->samples};
     char path[MODEL_PATH_MOST];
@@ -115,14 +115,14 @@ static int replay(struct work *work, int64_t number)
     if (never_began(work->generations, number))
         return 0;
     path_of(work->generations, number, journal_suffix, path);
-    if (journal_read(work->generations->files, path, &reading, learn, work->learner, work->reason,
-                     sizeof work->reason))
+    if (journal_read(work->generations->files, path, &reading, learn_sample, work->learner,
+                     work->reason, sizeof work->reason))
         return -1;
     if (reading.torn >= 0)
         log_warning("%s: cut off at byte %lld, where writing was interrupted; no sample that "
                     "counted as stored is lost",
                     path, reading.torn);
-    work->recovery->replayed += reading.number - work->model->samples;
+    work->recovery->from_journals += reading.number - work->model->samples;
     model_capture(work->model, work->learner);
     return 0;
 }
@@ -136,7 +136,7 @@ static int rebuild_from(struct work *work, int64_t number)
     if (load_snapshot(work, number))
         return -1;
     for (; number >= 0; number = found.above)
-        if (replay(work, number) || find_neighbours(work->generations, number, &found))
+        if (learn_journal(work, number) || find_neighbours(work->generations, number, &found))
             return -1;
     return 0;
 }
@@ -151,7 +151,7 @@ static int rebuild_from_older(struct work *work, int64_t newest, const char *why
          at = found.below) {
         if (found.below < 0)
             return -1;
-        work->recovery->replayed = 0;
+        work->recovery->from_journals = 0;
         if (rebuild_from(work, found.below) == 0) {
             log_warning("%s; rebuilt from generation %lld and the journals after it", why,
                         (long long)found.below);

@@ -25,9 +25,9 @@ struct generations {
 
 /* What became of the model that was on disk. */
 struct recovery {
-    bool any;           /* false: there was none */
-    int64_t generation; /* the one that was read first */
-    uint64_t replayed;  /* samples from journals */
+    bool any;               /* false: there was none */
+    int64_t generation;     /* the one that was read first */
+    uint64_t from_journals; /* samples */
 };
 
 /* Brings a learner that knows nothing to the state on disk: the newest snapshot and its journal.

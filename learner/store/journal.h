@@ -8,7 +8,7 @@
 #ifndef REACH_LEARNER_STORE_JOURNAL_H
 #define REACH_LEARNER_STORE_JOURNAL_H
 
-#include "daemon/config/sizes.h"
+#include "learner/learner.h"
 #include "learner/store/files.h"
 
 #include <stdbool.h>
@@ -17,8 +17,8 @@
 /* One learned sample. */
 struct journal_sample {
     uint64_t number; /* of the sample in the model's life, from 1 */
-    double z[MAX_JOINTS];
-    double x[MAX_OUTPUTS];
+    double z[LEARNER_MAX_INPUTS];
+    double x[LEARNER_MAX_OUTPUTS];
 };
 
 /* A journal that is being written. */

@@ -53,7 +53,7 @@ static void begin_generation(struct model_store *store, int64_t now)
     store->trouble[0] = '\0';
 }
 
-static void commit(struct model_store *store, int64_t now)
+static void commit_journal(struct model_store *store, int64_t now)
 {
     if (journal_commit(&store->journal)) {
         give_up_journal(store, now, "cannot write the journal");
@@ -72,13 +72,13 @@ static bool snapshot_is_due(const struct model_store *store, int64_t now)
     return journal->appended - journal->first >= (uint64_t)store->settings.snapshot_samples;
 }
 
-static void keep(struct model_store *store, int64_t now)
+static void store_what_is_due(struct model_store *store, int64_t now)
 {
     bool snapshot = snapshot_is_due(store, now);
     bool late = store->waiting_since && now - store->waiting_since >= store->settings.sync_us;
 
     if (store->journal.file >= 0 && (snapshot || late))
-        commit(store, now);
+        commit_journal(store, now);
     if (snapshot)
         begin_generation(store, now);
 }
@@ -107,7 +107,7 @@ static int write_model(const struct model_store *store, const char *path)
 }
 
 /* Exactly the model that was asked for: called when the shadow stands at its sample. */
-static void save(struct model_store *store)
+static void save_model(struct model_store *store)
 {
     char path[MODEL_PATH_MOST];
 
@@ -125,7 +125,7 @@ static void save(struct model_store *store)
 static void save_if_reached(struct model_store *store)
 {
     if (model_store_stage(store) == SAVE_ASKED && store->shadow_number == store->save_at)
-        save(store);
+        save_model(store);
 }
 
 /* The model into the shadow, which the loop will steer by. Returns 0, or -1 with a line; the shadow
@@ -148,7 +148,7 @@ static int read_model(struct model_store *store, const char *path, char *reason,
     return -1;
 }
 
-static void load(struct model_store *store, int64_t now)
+static void load_model(struct model_store *store, int64_t now)
 {
     char path[MODEL_PATH_MOST];
     char reason[MODEL_REASON_MOST];
@@ -161,7 +161,7 @@ static void load(struct model_store *store, int64_t now)
     }
     log_info("%s: read, %llu samples", path, (unsigned long long)store->model.samples);
     if (store->journal.file >= 0)
-        commit(store, now); /* the last of the model that goes */
+        commit_journal(store, now); /* the last of the model that goes */
     journal_close(&store->journal);
     atomic_store_explicit(&store->storing, false, memory_order_relaxed);
     store->retry_at = 0;
@@ -180,7 +180,7 @@ static void follow_swap(struct model_store *store)
     model_store_set_stage(store, FREE);
 }
 
-static void take(struct model_store *store, const struct noted *noted, int64_t now)
+static void take_noted(struct model_store *store, const struct noted *noted, int64_t now)
 {
     if (noted->epoch != store->shadow_epoch)
         return; /* learned by a model that has been replaced */
@@ -199,7 +199,7 @@ static void drain(struct model_store *store, int64_t now)
     while (mailbox_peek(store->noted, &noted)) {
         save_if_reached(store); /* looked at after the sample behind it was seen */
         mailbox_take(store->noted, &noted);
-        take(store, &noted, now);
+        take_noted(store, &noted, now);
     }
     save_if_reached(store);
 }
@@ -212,9 +212,9 @@ void model_store_serve(struct model_store *store, int64_t now)
         follow_swap(store);
     drain(store, now);
     if (model_store_stage(store) == LOAD_ASKED)
-        load(store, now);
+        load_model(store, now);
     else if (store->opened)
-        keep(store, now);
+        store_what_is_due(store, now);
 }
 
 static void store_the_rest(struct model_store *store)
@@ -223,7 +223,7 @@ static void store_the_rest(struct model_store *store)
         follow_swap(store);
     drain(store, 0);
     if (store->journal.file >= 0)
-        commit(store, 0);
+        commit_journal(store, 0);
     if (store->journal.file < 0)
         begin_generation(store, 0);
     if (store->journal.file >= 0)

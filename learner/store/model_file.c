@@ -182,8 +182,8 @@ static enum model_file_result read_file(const struct files *files, int file, str
     return MODEL_FILE_READ;
 }
 
-static enum model_file_result run(const struct files *files, const char *path,
-                                  struct model_bytes *model, char *reason, size_t reason_size)
+static enum model_file_result read_into(const struct files *files, const char *path,
+                                        struct model_bytes *model, char *reason, size_t reason_size)
 {
     struct sink sink = {.model = model};
     int file = files->open(path, O_RDONLY);
@@ -203,11 +203,11 @@ static enum model_file_result run(const struct files *files, const char *path,
 enum model_file_result model_file_read(const struct files *files, const char *path,
                                        struct model_bytes *model, char *reason, size_t reason_size)
 {
-    return run(files, path, model, reason, reason_size);
+    return read_into(files, path, model, reason, reason_size);
 }
 
 enum model_file_result model_file_check(const struct files *files, const char *path, char *reason,
                                         size_t reason_size)
 {
-    return run(files, path, NULL, reason, reason_size);
+    return read_into(files, path, NULL, reason, reason_size);
 }

@@ -108,12 +108,7 @@ static void describe(const struct model_store *store, const struct recovery *rec
                  store->settings.directory, (unsigned long long)store->model.samples,
                  (unsigned long long)store->model.hash,
                  learner_get_statistics(store->shadow).experts, (long long)recovery->generation,
-                 (unsigned long long)recovery->replayed);
-}
-
-void model_store_replay(struct model_store *store, struct model_store_recorded *recorded)
-{
-    store->recorded = recorded;
+                 (unsigned long long)recovery->from_journals);
 }
 
 int model_store_open(struct model_store *store, struct learner *learner, char *error,
@@ -198,7 +193,7 @@ bool model_store_works(const struct model_store *store)
     return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED;
 }
 
-static bool begin(struct model_store *store, int number)
+static bool begin_request(struct model_store *store, int number)
 {
     if (!store->ready)
         return false;
@@ -209,7 +204,7 @@ static bool begin(struct model_store *store, int number)
 
 bool model_store_begin_save(struct model_store *store, int number)
 {
-    if (!begin(store, number))
+    if (!begin_request(store, number))
         return false;
     store->save_at = store->number;
     model_store_set_stage(store, SAVE_ASKED);
@@ -218,7 +213,7 @@ bool model_store_begin_save(struct model_store *store, int number)
 
 bool model_store_begin_load(struct model_store *store, int number)
 {
-    if (!begin(store, number))
+    if (!begin_request(store, number))
         return false;
     model_store_set_stage(store, LOAD_ASKED);
     return true;
@@ -248,26 +243,8 @@ static enum model_store_result take_result(struct model_store *store, struct lea
     }
 }
 
-static void take_recorded(struct model_store *store, struct learner **learner)
-{
-    struct model_store_recorded *recorded = store->recorded;
-    struct learner *old = *learner;
-
-    store->moment = recorded->moment;
-    store->ready = recorded->moment.ready;
-    if (!recorded->take)
-        return;
-    *learner = recorded->learner;
-    recorded->learner = old;
-    recorded->take = false;
-}
-
 enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
 {
-    if (store->recorded) {
-        take_recorded(store, learner);
-        return store->moment.result;
-    }
     store->moment.result = take_result(store, learner);
     store->ready = has_directory(store) && model_store_stage(store) == FREE;
     store->moment.ready = store->ready;

@@ -78,15 +78,6 @@ struct model_store_moment {
 };
 struct model_store_moment model_store_moment(const struct model_store *store);
 
-/* A replay's store has no disk: whoever drives it sets this before each tick. */
-struct model_store_recorded {
-    struct model_store_moment moment;
-    bool take; /* `learner`, which holds a model that was loaded, changes places with the loop's */
-    struct learner *learner;
-};
-/* `recorded` stays the caller's. The store must have no directory. */
-void model_store_replay(struct model_store *store, struct model_store_recorded *recorded);
-
 /* Loop thread, for the status. */
 struct model_store_report {
     int64_t stored; /* samples of the model's life that are safe on disk; 0 = none of this model */

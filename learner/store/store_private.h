@@ -31,8 +31,7 @@ struct model_store {
     int64_t epoch;
     uint64_t number; /* of the newest sample noted */
     struct model_store_moment moment;
-    bool ready;                            /* a save or load can begin */
-    struct model_store_recorded *recorded; /* of a replay; NULL = this is none */
+    bool ready; /* a save or load can begin */
 
     /* Between both. */
     _Atomic int stage;

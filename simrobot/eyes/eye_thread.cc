@@ -1,7 +1,6 @@
 #include "simrobot/eyes/eye_thread.h"
 
-#include <time.h>
-
+#include "common/base/thread.h"
 #include "common/program/log.h"
 
 namespace sim
@@ -11,12 +10,6 @@ namespace
 
 /* Images that may wait to be drawn, and pairs that are kept for sending again. */
 const size_t most_waiting = 4, most_kept = 6;
-
-void sleep_until(int64_t monotonic_us)
-{
-    struct timespec until = {monotonic_us / 1000000, (monotonic_us % 1000000) * 1000};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
-}
 
 } // namespace
 
@@ -30,7 +23,7 @@ std::unique_ptr<EyeThread> EyeThread::create(const Config &config, uint64_t seed
 {
     std::unique_ptr<EyeThread> eyes(new EyeThread(config, seed, lcm, may_drop));
 
-    eyes->thread_ = std::thread(&EyeThread::run, eyes.get());
+    eyes->thread_ = std::thread(&EyeThread::serve_jobs, eyes.get());
     std::unique_lock<std::mutex> lock(eyes->mutex_);
     eyes->changed_.wait(lock, [&] { return eyes->started_ || eyes->failed_; });
     if (!eyes->failed_)
@@ -61,7 +54,7 @@ bool EyeThread::start(std::string *error)
     return true;
 }
 
-void EyeThread::run()
+void EyeThread::serve_jobs()
 {
     std::string error;
     bool good = start(&error);
@@ -117,7 +110,7 @@ void EyeThread::expose(const EyeJob &job)
         return;
     }
     if (job.release)
-        sleep_until(job.release);
+        sleep_until(job.release * 1000);
     await_turn(job.utime);
     publish(bytes);
     std::lock_guard<std::mutex> lock(mutex_);

@@ -61,7 +61,7 @@ private:
 
     EyeThread(const Config &config, uint64_t seed, lcm_t *lcm, bool may_drop);
 
-    void run();
+    void serve_jobs();
     bool start(std::string *error);
     bool next(EyeJob *job);
     void expose(const EyeJob &job);

@@ -25,7 +25,7 @@ public:
     {
     }
 
-    bool run()
+    bool run_to_the_end()
     {
         session_.set_now(first_utime);
         while (wait_for_leave()) {
@@ -109,7 +109,7 @@ private:
 bool lockstep_run(const Config &config, Session &session, SimBus &bus, bool (*stopping)(),
                   std::string *error)
 {
-    if (Lockstep(config, session, bus, stopping).run())
+    if (Lockstep(config, session, bus, stopping).run_to_the_end())
         return true;
     *error = "the LCM bus failed";
     return false;

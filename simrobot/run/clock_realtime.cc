@@ -1,10 +1,9 @@
 #include "simrobot/run/clock_realtime.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/thread.h"
 #include "common/program/log.h"
 
 namespace sim
@@ -14,12 +13,6 @@ namespace
 
 /* Later than this behind the grid, the grid is given up and begun anew. */
 const int64_t largest_lag_us = 100000;
-
-void sleep_until(int64_t monotonic_us)
-{
-    struct timespec until = {monotonic_us / 1000000, (monotonic_us % 1000000) * 1000};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
-}
 
 class RealTime
 {
@@ -31,11 +24,11 @@ public:
     {
     }
 
-    bool run()
+    bool run_to_the_end()
     {
         start_grid();
         while (!failed_ && !stopping_() && !session_.control().quit) {
-            receive(0);
+            take_command(0);
             session_.handle_requests();
             if (session_.control().paused) {
                 stand();
@@ -62,13 +55,13 @@ private:
 
     void stand()
     {
-        receive(100);
+        take_command(100);
         session_.handle_requests();
         if (!session_.control().paused)
             start_grid();
     }
 
-    void receive(int milliseconds)
+    void take_command(int milliseconds)
     {
         Command command;
 
@@ -96,8 +89,8 @@ private:
             if (now - at > largest_lag_us)
                 return catch_up(now - at);
             if (at > now)
-                sleep_until(at);
-            receive(0);
+                sleep_until(at * 1000);
+            take_command(0);
             session_.step(at + latency_us_);
         }
     }
@@ -133,7 +126,7 @@ private:
 bool realtime_run(const Config &config, Session &session, SimBus &bus, bool (*stopping)(),
                   std::string *error)
 {
-    if (RealTime(config, session, bus, stopping).run())
+    if (RealTime(config, session, bus, stopping).run_to_the_end())
         return true;
     *error = "the LCM bus failed";
     return false;

@@ -1,6 +1,7 @@
 /* The daemon's configuration. What is taken is whole: a second reading gives the same. */
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/config/sizes.h"
+#include "daemon/config/table.h"
 #include "harness.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
  * through. Whatever comes, commands are finite and within the limits of the safety gate. */
 #include "common/bus/open.h"
 #include "daemon/bus/bus.h"
-#include "daemon/config/config.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "fake_lcm.h"
 #include "harness.h"
@@ -19,7 +19,7 @@ static struct fake_lcm_channel channels[5];
 static struct config config;
 static struct arena *arena;
 
-static void check(const reach_robot_command_t *command)
+static void check_command(const reach_robot_command_t *command)
 {
     for (int i = 0; i < config_joints(&config); i++)
         HARNESS_REQUIRE(fabs(command->velocity[i]) <=
@@ -51,7 +51,7 @@ static void begin(void)
 }
 
 /* As the loop does it in real time. */
-static void take(struct daemon_bus *bus, struct tick_inputs *inputs)
+static void take_arrived(struct daemon_bus *bus, struct tick_inputs *inputs)
 {
     struct received_state received;
     struct received_request asked;
@@ -87,10 +87,10 @@ static void hear(struct daemon_bus *bus, struct tick *tick, const uint8_t *data,
         size_t used = fake_lcm_deliver_next(channels, 5, data, size);
         data += used;
         size -= used;
-        take(bus, &inputs);
+        take_arrived(bus, &inputs);
         tick_decide(tick, &inputs, now += 20000, &outputs);
         if (outputs.has_command)
-            check(&outputs.command);
+            check_command(&outputs.command);
         tick_learn(tick);
         tick_report(tick, now, &outputs);
     }
@@ -101,6 +101,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char error[512] = "";
     struct bus_claim *claim = NULL;
     lcm_t *lcm = lcm_create("");
+    const struct tick_settings settings = {.config = &config, .model = model_port_none()};
     struct daemon_bus *bus;
     struct tick *tick;
 
@@ -108,11 +109,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         begin();
     HARNESS_REQUIRE(bus_claim_role(lcm, REACH_HELLO_T_DAEMON, 0, &claim) == 0);
     arena = arena_create(tick_memory(&config) + daemon_bus_memory());
-    tick = tick_create(&config, arena, error, sizeof error);
+    tick = tick_create(&settings, arena, error, sizeof error);
     bus = daemon_bus_create(lcm, config.space.kind, arena, error, sizeof error);
     HARNESS_REQUIRE(tick && bus);
     hear(bus, tick, data, size);
-    model_store_close(tick_model_store(tick));
     arena_destroy(arena);
     bus_claim_free(claim);
     lcm_destroy(lcm);

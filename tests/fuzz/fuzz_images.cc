@@ -3,7 +3,7 @@
 #include "vision/pictures/decode.h"
 #include "vision/pictures/image_message.h"
 
-static void look(const encoded_image &from)
+static void decode_whole(const encoded_image &from)
 {
     static decoder decoding;
     camera eye = {};
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     if (image_message_parse(data, size, &message))
         return 0;
-    look(message.left);
-    look(message.right);
+    decode_whole(message.left);
+    decode_whole(message.right);
     return 0;
 }

@@ -29,7 +29,7 @@ static void ignore(void *user)
     (void)user;
 }
 
-static void check(const reach_learner_request_t *request, enum desk_answer answer)
+static void check_answer(const reach_learner_request_t *request, enum desk_answer answer)
 {
     const reach_learner_prediction_t *prediction = &output.prediction;
     const reach_learner_reply_t *reply = &output.reply;
@@ -61,7 +61,7 @@ static void hear(struct service_bus *bus, struct desk *desk, const uint8_t *data
         size -= used;
         while (service_bus_take(bus, &request)) {
             enum desk_answer answer = desk_take(desk, &request, now += 1000, &output);
-            check(&request, answer);
+            check_answer(&request, answer);
             accepted += was_learned(&request, answer);
         }
     }

@@ -1,6 +1,6 @@
 /* A log that is to be replayed: as it is, and with its checksums made right again, so that what was
  * damaged gets as far as the control step. What comes out is finite, and a refusal has a reason. */
-#include "daemon/bus/incoming.h"
+#include "common/base/checksum.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/replay/event_log.h"
 #include "daemon/replay/player.h"
@@ -14,7 +14,7 @@ enum { CONFIG_CHECKSUM_AT = 24, CONFIG_TEXT_AT = CONFIG_CHECKSUM_AT + 4 + 48 };
 
 static struct event_log event_log;
 
-static void check(void *user, struct tick_outputs *outputs)
+static void check_outputs(void *user, struct tick_outputs *outputs)
 {
     (void)user;
     for (int i = 0; outputs->has_command && i < 16; i++)
@@ -33,17 +33,17 @@ static void make_right(const char *channel, unsigned char *data, size_t size)
     size_t covered = outgoing_trace_covered();
 
     if (strcmp(channel, "REACH_TRACE") == 0 && size == covered + 4)
-        put_word(data + covered, incoming_checksum(data, covered));
+        put_word(data + covered, checksum_crc32(data, covered));
     if (strcmp(channel, "REACH_CONFIG") == 0 && size > CONFIG_TEXT_AT) {
         size_t most = size - CONFIG_TEXT_AT;
         size_t length = strnlen((const char *)data + CONFIG_TEXT_AT, most);
-        put_word(data + CONFIG_CHECKSUM_AT, incoming_checksum(data + CONFIG_TEXT_AT, length));
+        put_word(data + CONFIG_CHECKSUM_AT, checksum_crc32(data + CONFIG_TEXT_AT, length));
     }
 }
 
 static void replay_made_right(const char *path)
 {
-    const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check};
+    const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check_outputs};
     struct replay *replay = replay_create(&settings);
     struct event event;
     char error[512] = "";
@@ -69,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *path = harness_file(data, size);
     char error[512] = "";
 
-    if (loop_replay_log(path, &settings, error, sizeof error))
+    if (player_play_log(path, &settings, error, sizeof error))
         HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
     replay_made_right(path);
     return 0;

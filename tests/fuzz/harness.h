@@ -1,7 +1,7 @@
 /* What every harness has: the entry that libFuzzer calls, and a way to say that something must
- * hold. Without libFuzzer, replay.c calls the same entry. */
-#ifndef REACH_HARNESS_H
-#define REACH_HARNESS_H
+ * hold. Without libFuzzer, damaged_corpus.c calls the same entry. */
+#ifndef REACH_TESTS_FUZZ_HARNESS_H
+#define REACH_TESTS_FUZZ_HARNESS_H
 
 #include <stddef.h>
 #include <stdint.h>

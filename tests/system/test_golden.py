@@ -136,9 +136,9 @@ class Arithmetic(unittest.TestCase):
         ]
         said = subprocess.run(["nm", "-A", "--undefined-only", *archives], check=True,
                               capture_output=True, text=True).stdout  # fmt: skip
-        self.assertRegex(said, r"durations\.c\.o: +U log\n")
+        self.assertRegex(said, r"duration_histogram\.c\.o: +U log\n")
         users = re.findall(rf":(\w+)\.cc?\.o: +U (?:{'|'.join(INEXACT)})\n", said)
-        self.assertEqual(set(users), {"check", "durations"})
+        self.assertEqual(set(users), {"check", "duration_histogram"})
 
 
 if __name__ == "__main__":

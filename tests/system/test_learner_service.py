@@ -295,8 +295,12 @@ class Persistence(Service):
 
 class Program(Service):
     def test_usage(self):
-        for words, says in (((), "--config is missing"), (("--nonsense",), "unknown option"),
-                            (("--config",), "missing value"), (("x",), "unexpected")):  # fmt: skip
+        for words, says in (
+            ((), "--config is missing"),
+            (("--nonsense",), "unrecognized option"),
+            (("--config",), "--config: FILE is missing"),
+            (("x",), "unexpected"),
+        ):
             result = self.run_program(*words)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
             self.assertIn(says, result.stderr)

@@ -43,8 +43,8 @@ void fake_robot_image(const struct fake_robot *robot, double *image)
 
     fake_robot_task(robot, robot->q, x);
     /* A pinhole eye in the neck's centre: right of the axis is positive u, below positive v. */
-    image[0] = -robot->config->pixels_per_radian * tan(x[0] - q_head[0]);
-    image[1] = robot->config->pixels_per_radian * tan(x[1] - q_head[1]);
+    image[0] = -robot->config->eyes_pixels_per_radian * tan(x[0] - q_head[0]);
+    image[1] = robot->config->eyes_pixels_per_radian * tan(x[1] - q_head[1]);
     image[2] = x[2];
 }
 

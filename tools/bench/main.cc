@@ -1,16 +1,13 @@
 // reach-bench: what the learner's calls cost, beside the textbook version and LWPR, in one run.
-#include <getopt.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
-#include "common/program/version.h"
+#include "common/options/command_line.h"
 #include "tools/bench/cases.h"
 #include "tools/bench/measure.h"
 #include "tools/measure/json.h"
@@ -19,29 +16,34 @@
 namespace
 {
 
-constexpr int exit_usage = 2;
-
-const char usage[] =
-    "usage: reach-bench --json FILE [--only TEXT] [--calls N]\n"
-    "\n"
-    "Lets the learner, the textbook version and LWPR learn the same samples and times their calls "
-    "on\n"
-    "the clock of the thread. docs/performance.md explains the streams and the table.\n"
-    "\n"
-    "  --json FILE    rows {name, d, D, experts, ours_us, textbook_us, lwpr_us, ratio_p50, ...}\n"
-    "  --only TEXT    only cases whose label holds TEXT; labels are like 'linear d=7 M=280'\n"
-    "  --calls N      updates and predictions of each case; default 4000\n"
-    "  --quiet        no progress\n"
-    "  -h, --help     this text\n"
-    "  -V, --version  version and git revision\n"
-    "exit code: 0 done, 1 the file cannot be written, 2 wrong usage\n";
-
 struct Settings {
     const char *json = nullptr;
     const char *only = "";
     int calls = 4000;
     bool quiet = false;
 };
+
+const argument_row option_rows[] = {
+    ARGUMENT_TEXT("json", 0, "FILE", Settings, json,
+                  "rows {name, d, D, experts, ours_us, textbook_us, lwpr_us, ratio_p50, ...}"),
+    ARGUMENT_TEXT("only", 0, "TEXT", Settings, only,
+                  "only cases whose label holds TEXT; labels are like 'linear d=7 M=280'"),
+    ARGUMENT_INT("calls", "N", Settings, calls, 1, 10000000,
+                 "updates and predictions of each case; default 4000"),
+    ARGUMENT_ON("quiet", 0, Settings, quiet, "no progress"),
+    ARGUMENT_END,
+};
+
+const command_line line = {
+    "reach-bench",
+    "reach-bench --json FILE [--only TEXT] [--calls N]",
+    "Lets the learner, the textbook version and LWPR learn the same samples and times their calls\n"
+    "on the clock of the thread. docs/performance.md explains the streams and the table.",
+    option_rows,
+    "0 done, 1 the file cannot be written",
+    nullptr,
+    nullptr,
+    nullptr};
 
 std::string label(const Case &c)
 {
@@ -84,7 +86,7 @@ void put_row(json *out, const Row &row)
     json_end_object(out);
 }
 
-void write(const std::vector<Row> &rows, const char *path)
+void write_report(const std::vector<Row> &rows, const char *path)
 {
     char error[1200];
     output_file file;
@@ -99,64 +101,7 @@ void write(const std::vector<Row> &rows, const char *path)
         throw std::runtime_error(error);
 }
 
-int wrong(const std::string &reason)
-{
-    fprintf(stderr, "reach-bench: %s\n", reason.c_str());
-    return exit_usage;
-}
-
-int read_calls(const char *text, int *calls)
-{
-    char *end;
-    long number = strtol(text, &end, 10);
-    if (end == text || *end || number < 1 || number > 10000000)
-        return wrong("--calls: a whole number from 1 to 10000000 is wanted");
-    *calls = static_cast<int>(number);
-    return 0;
-}
-
-// 0 to go on, -1 when everything was said, otherwise the exit code.
-int read_command_line(int argc, char **argv, Settings *settings)
-{
-    static const option options[] = {
-        {"json", required_argument, nullptr, 'j'},
-        {"only", required_argument, nullptr, 'o'},
-        {"calls", required_argument, nullptr, 'c'},
-        {"quiet", no_argument, nullptr, 'q'},
-        {"help", no_argument, nullptr, 'h'},
-        {"version", no_argument, nullptr, 'V'},
-        {nullptr, 0, nullptr, 0},
-    };
-    int result = 0;
-    int code;
-    argv[0] = program_invocation_short_name;
-    while (result == 0 && (code = getopt_long(argc, argv, "hV", options, nullptr)) != -1) {
-        if (code == 'j') {
-            settings->json = optarg;
-        } else if (code == 'o') {
-            settings->only = optarg;
-        } else if (code == 'c') {
-            result = read_calls(optarg, &settings->calls);
-        } else if (code == 'q') {
-            settings->quiet = true;
-        } else if (code == 'h') {
-            fputs(usage, stdout);
-            result = -1;
-        } else if (code == 'V') {
-            printf("reach-bench %s\n", reach_version);
-            result = -1;
-        } else {
-            result = exit_usage;
-        }
-    }
-    if (result == 0 && optind < argc)
-        return wrong(std::string("unexpected word '") + argv[optind] + "'");
-    if (result == 0 && !settings->json)
-        return wrong("--json is missing");
-    return result;
-}
-
-void run(const Settings &settings)
+void measure_cases(const Settings &settings)
 {
     char error[1200];
     std::vector<Row> rows;
@@ -180,7 +125,7 @@ void run(const Settings &settings)
     progress("");
     if (rows.empty())
         throw std::runtime_error(std::string("--only: no case holds '") + settings.only + "'");
-    write(rows, settings.json);
+    write_report(rows, settings.json);
 }
 
 } // namespace
@@ -188,11 +133,13 @@ void run(const Settings &settings)
 int main(int argc, char **argv)
 {
     Settings settings;
-    int result = read_command_line(argc, argv, &settings);
-    if (result)
-        return result < 0 ? EXIT_SUCCESS : result;
+    int status = command_line_parse(&line, argc, argv, &settings);
+    if (status < 0 && !settings.json)
+        status = command_line_wrong(&line, "--json is missing");
+    if (status >= 0)
+        return status;
     try {
-        run(settings);
+        measure_cases(settings);
     } catch (const std::exception &error) {
         fprintf(stderr, "reach-bench: %s\n", error.what());
         return EXIT_FAILURE;

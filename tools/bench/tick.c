@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "common/base/random.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
-#include "daemon/control/tick_private.h"
+#include "daemon/model_of_store.h"
 #include "tools/bench/fake_robot.h"
 #include "tools/measure/etc_directory.h"
 
@@ -17,6 +18,7 @@ static const double tool_length = 0.3; /* of the fake robot's units */
 struct bench {
     struct config config;
     struct arena *arena;
+    struct model_store *store;
     struct tick *tick;
     struct fake_robot robot;
     struct tick_inputs inputs;
@@ -41,7 +43,7 @@ static int load_config(struct config *config, const char *directory, char *error
 
 static int experts_of(const struct bench *bench)
 {
-    return learner_get_statistics(bench->tick->learner).experts;
+    return learner_get_statistics(tick_learner(bench->tick)).experts;
 }
 
 /* Random postures of the babbled range, with hand and tool by turns. */
@@ -58,9 +60,9 @@ static int teach(struct bench *bench, int experts, char *error, size_t error_siz
             q[i] =
                 random_uniform(&random, config->babble_min.value[i], config->babble_max.value[i]);
         fake_robot_task(&bench->robot, q, x);
-        while (!model_store_note(bench->tick->store, q, x))
-            model_store_serve(bench->tick->store, n);
-        learner_update(bench->tick->learner, q, x);
+        while (!model_store_note(bench->store, q, x))
+            model_store_serve(bench->store, n);
+        learner_update(tick_learner(bench->tick), q, x);
     }
     bench->robot.tool = 0.0;
     if (experts_of(bench) >= experts)
@@ -122,20 +124,34 @@ static int reach(struct bench *bench, int calls, struct durations *times, char *
     return 0;
 }
 
+/* As the daemon does it. Returns 0 or -1. */
+static int create_tick(struct bench *bench, char *error, size_t error_size)
+{
+    const struct model_store_settings kept = model_of_store_settings(&bench->config);
+    struct tick_settings settings = {.config = &bench->config};
+
+    bench->arena = arena_create(tick_memory(&bench->config) + model_store_memory());
+    if (!bench->arena) {
+        snprintf(error, error_size, "tick: no memory");
+        return -1;
+    }
+    bench->store = model_store_create(&kept, bench->arena, error, error_size);
+    if (!bench->store)
+        return -1;
+    settings.model = model_of_store(bench->store);
+    bench->tick = tick_create(&settings, bench->arena, error, error_size);
+    if (!bench->tick)
+        return -1;
+    return model_store_open(bench->store, tick_learner(bench->tick), error, error_size);
+}
+
 /* A daemon's control step, taught; `directory` "" keeps nothing. Returns 0 or -1. */
 static int begin(struct bench *bench, const char *directory, int experts, char *error,
                  size_t error_size)
 {
     memset(bench, 0, sizeof *bench);
-    if (load_config(&bench->config, directory, error, error_size))
-        return -1;
-    bench->arena = arena_create(tick_memory(&bench->config));
-    if (!bench->arena) {
-        snprintf(error, error_size, "tick: no memory");
-        return -1;
-    }
-    bench->tick = tick_create(&bench->config, bench->arena, error, error_size);
-    if (!bench->tick || tick_open_model(bench->tick, error, error_size))
+    if (load_config(&bench->config, directory, error, error_size) ||
+        create_tick(bench, error, error_size))
         return -1;
     fake_robot_init(&bench->robot, &bench->config);
     return teach(bench, experts, error, error_size);
@@ -157,8 +173,7 @@ int tick_prime(const char *directory, int experts, char *error, size_t error_siz
     static struct bench bench;
     int result = begin(&bench, directory, experts, error, error_size);
 
-    if (bench.tick)
-        model_store_close(bench.tick->store);
+    model_store_close(bench.store);
     arena_destroy(bench.arena);
     return result;
 }

@@ -30,13 +30,6 @@ MAY_USE = {
     "tools/bench": {"common", "learner", "daemon", "tools"},  # it measures a tick without the bus
 }
 TOPS = [path for path in MAY_USE if "/" not in path]
-# Edges that close a circle or break MAY_USE today: (room, room it uses). Each goes with its edge.
-KNOWN = {
-    ("daemon/config", "daemon/bus"),  # a checksum of messages
-    ("daemon/config", "daemon/control/limits"),  # a constant
-    ("daemon/replay", "daemon"),  # which options may change while the daemon runs
-    ("learner/store", "daemon/config"),  # the most inputs and outputs
-}
 INCLUDE = re.compile(r'\s*#\s*include\s*(["<])([^">]+)[">]')
 
 Edge = tuple[str, str]
@@ -126,30 +119,21 @@ def thinnest(graph: Graph, circle: list[str]) -> Edge:
     return min(itertools.pairwise(circle), key=lambda edge: len(graph.edges[edge]))
 
 
-def find_faults(graph: Graph, known: set[Edge]) -> list[str]:
+def find_faults(graph: Graph) -> list[str]:
     faults = list(graph.faults)
-    for edge in sorted(set(graph.edges) - known):
+    for edge in sorted(graph.edges):
         if not is_allowed(edge):
             faults.append(
                 f"{edge[0]} may not use {edge[1]}: {lines(graph, edge)}; move what it needs into a"
                 " folder that it may use"
             )
-    for circle in find_circles(graph, known):
+    for circle in find_circles(graph, set()):
         edge = thinnest(graph, circle)
         made_by = "; ".join(lines(graph, edge) for edge in itertools.pairwise(circle))
         faults.append(
             f"circle {' -> '.join(circle)}: {made_by}; open it between {edge[0]} and {edge[1]}, by"
             " moving what both need into a folder below"
         )
-    used = graph.used_by(known)
-    for edge in sorted(known):
-        if edge not in graph.edges or (
-            is_allowed(edge) and not shortest_way(used, edge[1], edge[0])
-        ):
-            faults.append(
-                f"{edge[0]} -> {edge[1]} does no harm any more: take it out of KNOWN in"
-                " tools/dev/include_graph.py"
-            )
     return faults
 
 
@@ -160,9 +144,9 @@ def lines(graph: Graph, edge: Edge) -> str:
     return ", ".join(made_by[:3]) + more
 
 
-def closing_edges(graph: Graph, known: set[Edge]) -> set[Edge]:
+def closing_edges(graph: Graph) -> set[Edge]:
     """What to leave out for the graph to have an order."""
-    wrong = {edge for edge in graph.edges if edge in known or not is_allowed(edge)}
+    wrong = {edge for edge in graph.edges if not is_allowed(edge)}
     return wrong | {thinnest(graph, circle) for circle in find_circles(graph, wrong)}
 
 
@@ -203,13 +187,13 @@ def main() -> int:
     )
     options = parser.parse_args()
     graph = read_graph(ROOT)
-    closing = closing_edges(graph, KNOWN)
+    closing = closing_edges(graph)
     text = as_text(graph, closing)
     if options.graph:
         print(text, end="")
         drawing = include_picture.draw(graph.used_by(closing), closing, text)
         (ROOT / PICTURE).write_text(drawing)
-    faults = find_faults(graph, KNOWN) + check_picture(ROOT, text)
+    faults = find_faults(graph) + check_picture(ROOT, text)
     for fault in faults:
         print(f"rooms: {fault}")
     return 1 if faults else 0

@@ -20,13 +20,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("common", "daemon", "learner")  # what the loop is made of
-ENTRY = "daemon/realtime/loop.c:run"
+ENTRY = "daemon/realtime/loop.c:run_loop"
 # Called before the first tick alone; what they call does not count.
 AT_START = {
     "pthread_self",
     "pthread_setname_np",
-    "realtime_enter",
-    "realtime_touch_stack",
+    "thread_enter",
+    "thread_touch_stack",
     "confine_thread",
 }
 # Of the libraries, and what each may take of the stack; bytes, generously.
@@ -46,7 +46,13 @@ CALLS_BY_POINTER = {
         "learner_predict": {"predict"},
         "learner_get_statistics": {"experts"},
     },
-    "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"start"}},
+    "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"accepts", "start"}},
+    "model_port_ops": {
+        "tick_learn": {"note"},
+        "tick_awaits_store": {"works", "full"},
+        "tick_take_requests": {"poll", "begin_save", "begin_load"},
+        "tick_report": {"report", "moment"},
+    },
 }
 # Whoever else calls by pointer within the learner does so through these.
 LEARNER_TABLES = ("kernels", "feature_map_ops")
@@ -205,7 +211,7 @@ def sources() -> list[dict]:
 def limit() -> int:
     """What thread.h says is touched at start."""
     text = (ROOT / "common/base/thread.h").read_text()
-    words = re.search(r"REALTIME_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
+    words = re.search(r"THREAD_STACK_TOUCHED \((\d+) \* (\d+)\)", text)
     return int(words[1]) * int(words[2])
 
 

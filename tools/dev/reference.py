@@ -96,11 +96,11 @@ def options_of(build: Path, program: str) -> list[Option]:
 
 
 def changeable(root: Path = ROOT) -> list[str]:
-    """Names, or with a dot at the end groups, of what SIGHUP may change (daemon/reload.c)."""
-    source = (root / "daemon/reload.c").read_text()
+    """Names, or with a dot at the end groups, of what SIGHUP may change: config/reloadable.c."""
+    source = (root / "daemon/config/reloadable.c").read_text()
     found = re.search(r"live\[\] = \{(.*?)\};", source, re.S)
     if not found:
-        raise SourceError("daemon/reload.c: no list named live")
+        raise SourceError("daemon/config/reloadable.c: no list named live")
     return re.findall(r'"(.+?)"', found[1])
 
 

@@ -14,8 +14,6 @@
 #include "tools/measure/learner_options.h"
 #include "tools/measure/output_file.h"
 
-enum { EXIT_USAGE = 2 };
-
 /* All that a run holds. */
 struct run {
     struct request request;
@@ -252,19 +250,11 @@ int main(int argc, char **argv)
         fputs("reach-eval: out of memory\n", stderr);
         return code;
     }
-    switch (request_read(argc, argv, &run->request)) {
-    case REQUEST_DONE:
-        code = EXIT_SUCCESS;
-        break;
-    case REQUEST_WRONG:
-        code = EXIT_USAGE;
-        break;
-    case REQUEST_READY:
-        if (carry_out(run) == 0)
-            code = EXIT_SUCCESS;
-        else
+    code = request_read(argc, argv, &run->request);
+    if (code < 0) {
+        code = carry_out(run) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+        if (code)
             fprintf(stderr, "reach-eval: %s\n", run->error);
-        break;
     }
     free_run(run);
     return code;

@@ -1,89 +1,13 @@
 #include "tools/eval/request.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/program/version.h"
+#include "common/options/command_line.h"
 #include "tools/measure/learner_options.h"
-
-static const char usage[] =
-    "usage: reach-eval --learner KIND --inputs d --outputs D [--config FILE] [--param NAME=VALUE "
-    "...]\n"
-    "                  --train FILE[,FILE...] [--at N,N,...] [--test NAME=FILE ...]\n"
-    "                  [--track NAME=FILE ...] --json FILE [--save FILE] [--load FILE]\n"
-    "\n"
-    "Teaches a learner the samples of CSV files, in order, and measures it on others.\n"
-    "\n"
-    "  --learner KIND       imle or lwpr\n"
-    "  --inputs d           numbers of the input in a row, 1 .. 16\n"
-    "  --outputs D          numbers of the output after them, 1 .. 8\n"
-    "  --config FILE        parameters, YAML; repeated: a later file over an earlier one. Without\n"
-    "                       it, what ships for robots of that kind (d = 7 or 4, D = 3)\n"
-    "  --param NAME=VALUE   one parameter, over the files; --help-options lists them\n"
-    "  --train FILE,FILE    samples to learn\n"
-    "  --at N,N,...         numbers of samples after which to measure; default: after all\n"
-    "  --test NAME=FILE     independent queries\n"
-    "  --track NAME=FILE    a smooth trajectory: follow the solution nearest to the last true "
-    "output\n"
-    "  --json FILE          the report, keys explained in docs/evaluation.md; -: standard output\n"
-    "  --save FILE          the learner's state after the last measurement\n"
-    "  --load FILE          begin with such a state; needs the same parameters\n"
-    "  --quiet              neither progress nor a table\n"
-    "  --help-options       every parameter for this --learner, --inputs and --outputs\n"
-    "  -h, --help           this text\n"
-    "  -V, --version        version and git revision\n"
-    "\n"
-    "Files are plain or gzip; a row is d inputs, D outputs and, where a file carries it, the\n"
-    "Jacobian (D x d, row-major); the first line may hold names.\n"
-    "exit code: 0 done, 1 a file or a parameter is refused, 2 wrong usage\n";
-
-enum long_option {
-    OPTION_LEARNER = 256,
-    OPTION_INPUTS,
-    OPTION_OUTPUTS,
-    OPTION_CONFIG,
-    OPTION_PARAM,
-    OPTION_TRAIN,
-    OPTION_AT,
-    OPTION_TEST,
-    OPTION_TRACK,
-    OPTION_JSON,
-    OPTION_SAVE,
-    OPTION_LOAD,
-    OPTION_QUIET,
-    OPTION_HELP_OPTIONS,
-};
-
-static const struct option long_options[] = {
-    {"learner", required_argument, NULL, OPTION_LEARNER},
-    {"inputs", required_argument, NULL, OPTION_INPUTS},
-    {"outputs", required_argument, NULL, OPTION_OUTPUTS},
-    {"config", required_argument, NULL, OPTION_CONFIG},
-    {"param", required_argument, NULL, OPTION_PARAM},
-    {"train", required_argument, NULL, OPTION_TRAIN},
-    {"at", required_argument, NULL, OPTION_AT},
-    {"test", required_argument, NULL, OPTION_TEST},
-    {"track", required_argument, NULL, OPTION_TRACK},
-    {"json", required_argument, NULL, OPTION_JSON},
-    {"save", required_argument, NULL, OPTION_SAVE},
-    {"load", required_argument, NULL, OPTION_LOAD},
-    {"quiet", no_argument, NULL, OPTION_QUIET},
-    {"help-options", no_argument, NULL, OPTION_HELP_OPTIONS},
-    {"help", no_argument, NULL, 'h'},
-    {"version", no_argument, NULL, 'V'},
-    {0}};
-
-/* While the command line is read: which option the next free word belongs to. */
-struct reading {
-    struct request *request;
-    int repeatable; /* --param, --train, --test or --track; 0: none */
-    bool has_learner;
-    bool lists_options;
-};
 
 static const struct {
     const char *name;
@@ -100,81 +24,67 @@ const char *request_learner_name(enum learner_kind kind)
     return "unknown";
 }
 
-static int wrong(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static int wrong(const char *format, ...)
+static int wrong(char *error, size_t error_size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static int wrong(char *error, size_t error_size, const char *format, ...)
 {
     va_list arguments;
 
     va_start(arguments, format);
-    fputs("reach-eval: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    vsnprintf(error, error_size, format, arguments);
     va_end(arguments);
     return -1;
 }
 
-static int take_learner(struct reading *reading, const char *text)
+static int take_learner(void *user, const char *text, char *error, size_t error_size)
 {
+    struct request *request = user;
+
     for (int i = 0; i < N_LEARNERS; i++)
         if (strcmp(learners[i].name, text) == 0) {
-            reading->request->kind = learners[i].kind;
-            reading->has_learner = true;
+            request->kind = learners[i].kind;
+            request->has_kind = true;
             return 0;
         }
-    return wrong("--learner: unknown learner '%s'", text);
+    return wrong(error, error_size, "unknown learner '%s'", text);
 }
 
-static int take_dimension(const char *option, const char *text, int most, int *value)
+static int take_train(void *user, const char *text, char *error, size_t error_size)
 {
-    char *end;
-    long number = strtol(text, &end, 10);
+    struct request *request = user;
 
-    if (end == text || *end || number < 1 || number > most)
-        return wrong("%s: a whole number from 1 to %d is wanted, not '%s'", option, most, text);
-    *value = (int)number;
-    return 0;
-}
-
-static int take_text(const char *option, const char *text, int *n, const char **list)
-{
-    if (*n == REQUEST_MOST)
-        return wrong("%s: more than %d", option, REQUEST_MOST);
-    list[(*n)++] = text;
-    return 0;
-}
-
-static int take_train(struct request *request, const char *text)
-{
     for (;;) {
         size_t length = strcspn(text, ",");
         char *path = strndup(text, length);
         if (!path || length == 0) {
             free(path);
-            return wrong("--train: a file's name is missing");
+            return wrong(error, error_size, "a file's name is missing");
         }
-        if (take_text("--train", path, &request->n_train, request->train)) {
+        if (request->n_train == REQUEST_MOST) {
             free(path);
-            return -1;
+            return wrong(error, error_size, "more than %d", REQUEST_MOST);
         }
+        request->train[request->n_train++] = path;
         if (text[length] == '\0')
             return 0;
         text += length + 1;
     }
 }
 
-static int take_at(struct request *request, const char *text)
+static int take_at(void *user, const char *text, char *error, size_t error_size)
 {
+    struct request *request = user;
     char *end;
 
     for (;;) {
         errno = 0;
         unsigned long long number = strtoull(text, &end, 10);
         if (end == text || *text < '0' || *text > '9' || errno || (*end && *end != ','))
-            return wrong("--at: whole numbers n1,n2,... are wanted, not '%s'", text);
+            return wrong(error, error_size, "whole numbers n1,n2,... are wanted, not '%s'", text);
         if (request->n_at == REQUEST_MOST_COUNTS)
-            return wrong("--at: more than %d", REQUEST_MOST_COUNTS);
+            return wrong(error, error_size, "more than %d", REQUEST_MOST_COUNTS);
         if (request->n_at > 0 && number <= request->at[request->n_at - 1])
-            return wrong("--at: numbers must grow, %llu does not", number);
+            return wrong(error, error_size, "numbers must grow, %llu does not", number);
         request->at[request->n_at++] = (size_t)number;
         if (*end == '\0')
             return 0;
@@ -182,141 +92,111 @@ static int take_at(struct request *request, const char *text)
     }
 }
 
-static int take_set(struct request *request, const char *option, const char *text, bool is_track)
+static int take_set(struct request *request, const char *text, bool is_track, char *error,
+                    size_t error_size)
 {
     struct request_set set = {.is_track = is_track};
     size_t length = strcspn(text, "=");
 
     if (length == 0 || text[length] == '\0' || text[length + 1] == '\0')
-        return wrong("%s: NAME=FILE is wanted, not '%s'", option, text);
+        return wrong(error, error_size, "NAME=FILE is wanted, not '%s'", text);
     if (length >= sizeof set.name)
-        return wrong("%s: the name in '%s' is too long", option, text);
+        return wrong(error, error_size, "the name in '%s' is too long", text);
     memcpy(set.name, text, length);
     set.path = text + length + 1;
     for (int i = 0; i < request->n_sets; i++)
         if (request->sets[i].is_track == is_track && strcmp(request->sets[i].name, set.name) == 0)
-            return wrong("%s: the name %s is given twice", option, set.name);
+            return wrong(error, error_size, "the name %s is given twice", set.name);
     if (request->n_sets == REQUEST_MOST)
-        return wrong("more than %d of --test and --track", REQUEST_MOST);
+        return wrong(error, error_size, "more than %d of --test and --track", REQUEST_MOST);
     request->sets[request->n_sets++] = set;
     return 0;
 }
 
-/* The options whose argument may be followed by more of the same. */
-static int take_repeatable(struct reading *reading, int option, const char *text)
+static int take_test(void *user, const char *text, char *error, size_t error_size)
 {
-    struct request *request = reading->request;
-
-    reading->repeatable = option;
-    switch (option) {
-    case OPTION_PARAM:
-        return take_text("--param", text, &request->n_params, request->params);
-    case OPTION_TRAIN:
-        return take_train(request, text);
-    case OPTION_TEST:
-        return take_set(request, "--test", text, false);
-    case OPTION_TRACK:
-        return take_set(request, "--track", text, true);
-    default:
-        return wrong("unexpected word '%s'", text);
-    }
+    return take_set(user, text, false, error, error_size);
 }
 
-/* The options that stand alone. */
-static int take_single(struct reading *reading, int option, const char *text)
+static int take_track(void *user, const char *text, char *error, size_t error_size)
 {
-    struct request *request = reading->request;
-
-    switch (option) {
-    case OPTION_LEARNER:
-        return take_learner(reading, text);
-    case OPTION_INPUTS:
-        return take_dimension("--inputs", text, LEARNER_MAX_INPUTS, &request->n_inputs);
-    case OPTION_OUTPUTS:
-        return take_dimension("--outputs", text, LEARNER_MAX_OUTPUTS, &request->n_outputs);
-    case OPTION_CONFIG:
-        return take_text("--config", text, &request->n_files, request->files);
-    case OPTION_AT:
-        return take_at(request, text);
-    case OPTION_JSON:
-        request->json = text;
-        return 0;
-    case OPTION_SAVE:
-        request->save = text;
-        return 0;
-    case OPTION_LOAD:
-        request->load = text;
-        return 0;
-    case OPTION_QUIET:
-        request->quiet = true;
-        return 0;
-    case OPTION_HELP_OPTIONS:
-        reading->lists_options = true;
-        return 0;
-    default:
-        return -1; /* getopt has said why */
-    }
+    return take_set(user, text, true, error, error_size);
 }
 
-static int take_option(struct reading *reading, int option)
-{
-    switch (option) {
-    case OPTION_PARAM:
-    case OPTION_TRAIN:
-    case OPTION_TEST:
-    case OPTION_TRACK:
-        return take_repeatable(reading, option, optarg);
-    case 1: /* a word without an option */
-        return take_repeatable(reading, reading->repeatable, optarg);
-    default:
-        reading->repeatable = 0;
-        return take_single(reading, option, optarg);
-    }
-}
+static const struct argument_row rows[] = {
+    ARGUMENT_CALL("learner", "KIND", take_learner, "imle or lwpr"),
+    ARGUMENT_INT("inputs", "d", struct request, n_inputs, 1, LEARNER_MAX_INPUTS,
+                 "numbers of the input in a row, 1 .. 16"),
+    ARGUMENT_INT("outputs", "D", struct request, n_outputs, 1, LEARNER_MAX_OUTPUTS,
+                 "numbers of the output after them, 1 .. 8"),
+    ARGUMENT_LIST("config", 0, "FILE", struct request, files, n_files, REQUEST_MOST,
+                  "parameters, YAML; repeated: a later file over an earlier one. Without it, what "
+                  "ships for robots of that kind (d = 7 or 4, D = 3)"),
+    ARGUMENT_LIST("param", 0, "NAME=VALUE ...", struct request, params, n_params, REQUEST_MOST,
+                  "parameters, over the files; --help-options lists them"),
+    ARGUMENT_CALL("train", "FILE[,FILE] ...", take_train, "samples to learn"),
+    ARGUMENT_CALL("at", "N,N,...", take_at,
+                  "numbers of samples after which to measure; default: after all"),
+    ARGUMENT_CALL("test", "NAME=FILE ...", take_test, "independent queries"),
+    ARGUMENT_CALL("track", "NAME=FILE ...", take_track,
+                  "a smooth trajectory: follow the solution nearest to the last true output"),
+    ARGUMENT_TEXT("json", 0, "FILE", struct request, json,
+                  "the report, keys explained in docs/evaluation.md; -: standard output"),
+    ARGUMENT_TEXT("save", 0, "FILE", struct request, save,
+                  "the learner's state after the last measurement"),
+    ARGUMENT_TEXT("load", 0, "FILE", struct request, load,
+                  "begin with such a state; needs the same parameters"),
+    ARGUMENT_ON("quiet", 0, struct request, quiet, "neither progress nor a table"),
+    ARGUMENT_ON("help-options", 0, struct request, lists_options,
+                "list every parameter for this --learner, --inputs and --outputs"),
+    ARGUMENT_END,
+};
 
-/* What every run needs. */
-static int check(const struct reading *reading)
-{
-    const struct request *request = reading->request;
+static const struct command_line line = {
+    .program = "reach-eval",
+    .usage = "reach-eval --learner KIND --inputs d --outputs D [--config FILE] [--param NAME=VALUE "
+             "...]\n"
+             "                  --train FILE[,FILE...] [--at N,N,...] [--test NAME=FILE ...]\n"
+             "                  [--track NAME=FILE ...] --json FILE [--save FILE] [--load FILE]",
+    .about = "Teaches a learner the samples of CSV files, in order, and measures it on others.\n\n"
+             "Files are plain or gzip; a row is d inputs, D outputs and, where a file carries it,\n"
+             "the Jacobian (D x d, row-major); the first line may hold names.",
+    .rows = rows,
+    .exit_status = "0 done, 1 a file or a parameter is refused",
+};
 
-    if (!reading->has_learner)
-        return wrong("--learner is missing");
-    if (request->n_inputs == 0 || request->n_outputs == 0)
-        return wrong("%s is missing", request->n_inputs == 0 ? "--inputs" : "--outputs");
-    if (reading->lists_options)
-        return 0;
+/* What every run needs and this one lacks, or NULL. */
+static const char *lacking(const struct request *request)
+{
+    if (!request->has_kind)
+        return "--learner";
+    if (request->n_inputs == 0)
+        return "--inputs";
+    if (request->n_outputs == 0)
+        return "--outputs";
+    if (request->lists_options)
+        return NULL;
     if (request->n_train == 0 && !request->load)
-        return wrong("--train is missing");
-    if (!request->json)
-        return wrong("--json is missing");
-    return 0;
+        return "--train";
+    return request->json ? NULL : "--json";
 }
 
-enum request_result request_read(int argc, char **argv, struct request *request)
+int request_read(int argc, char **argv, struct request *request)
 {
-    struct reading reading = {.request = request};
-    int option;
+    const char *option;
+    int status;
 
     *request = (struct request){0};
-    argv[0] = program_invocation_short_name; /* what getopt puts in front of its complaints */
-    while ((option = getopt_long(argc, argv, "-hV", long_options, NULL)) != -1) {
-        if (option == 'h') {
-            fputs(usage, stdout);
-            return REQUEST_DONE;
-        }
-        if (option == 'V') {
-            printf("reach-eval %s\n", reach_version);
-            return REQUEST_DONE;
-        }
-        if (take_option(&reading, option))
-            return REQUEST_WRONG;
-    }
-    if (check(&reading))
-        return REQUEST_WRONG;
-    if (!reading.lists_options)
-        return REQUEST_READY;
+    status = command_line_parse(&line, argc, argv, request);
+    if (status >= 0)
+        return status;
+    option = lacking(request);
+    if (option)
+        return command_line_wrong(&line, "%s is missing", option);
+    if (!request->lists_options)
+        return -1;
     learner_options_print(request->kind, request->n_inputs, request->n_outputs, stdout);
-    return REQUEST_DONE;
+    return 0;
 }
 
 void request_free(struct request *request)

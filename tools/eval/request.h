@@ -22,6 +22,7 @@ struct request_set {
 /* Texts are those of argv; `train` entries belong to the request. */
 struct request {
     enum learner_kind kind;
+    bool has_kind;
     int n_inputs;
     int n_outputs;
     int n_files; /* of configuration */
@@ -38,15 +39,11 @@ struct request {
     const char *save; /* or NULL */
     const char *load; /* or NULL */
     bool quiet;
+    bool lists_options;
 };
 
-enum request_result {
-    REQUEST_READY,
-    REQUEST_DONE,  /* help or version was printed */
-    REQUEST_WRONG, /* one line was printed that says what is wrong */
-};
-
-enum request_result request_read(int argc, char **argv, struct request *request);
+/* Reads the command line. Returns -1 to go on, or an exit status, all having been said. */
+int request_read(int argc, char **argv, struct request *request);
 
 void request_free(struct request *request);
 

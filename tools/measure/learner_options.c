@@ -3,7 +3,7 @@
 #include <limits.h>
 #include <math.h>
 
-#include "learner/yaml.h"
+#include "learner/parameters/yaml.h"
 #include "tools/measure/etc_directory.h"
 
 static const struct option_row rows[] = {LEARNER_OPTION_ROWS, OPTION_END};

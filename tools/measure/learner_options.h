@@ -1,5 +1,5 @@
-/* The learner's options (learner/yaml.h) as reach-eval takes them: from YAML files and as
- * "name=value"; printed, and as JSON. */
+/* The learner's options (learner/parameters/yaml.h) as reach-eval takes them: from YAML files and
+ * as "name=value"; printed, and as JSON. */
 #ifndef REACH_TOOLS_MEASURE_LEARNER_OPTIONS_H
 #define REACH_TOOLS_MEASURE_LEARNER_OPTIONS_H
 

@@ -203,15 +203,14 @@ int command_parse(const char *const *words, int n_words, const struct command_se
     struct context context = {words + is_sim + 1, settings, call, error, error_size};
 
     if (!name) {
-        snprintf(error, error_size, "a command is wanted; reachctl --help lists them");
+        snprintf(error, error_size, "a command is wanted");
         return -1;
     }
     command = find(is_sim ? simulator_commands : looking_commands, name);
     if (!command && !is_sim)
         command = find(daemon_commands, name);
     if (!command) {
-        snprintf(error, error_size, "unknown command '%s%s'; reachctl --help lists them",
-                 is_sim ? "sim " : "", name);
+        snprintf(error, error_size, "unknown command '%s%s'", is_sim ? "sim " : "", name);
         return -1;
     }
     if (n_words - is_sim - 1 != command->n_arguments) {

@@ -32,7 +32,7 @@ double colour_hue_distance(double a, double b)
     return std::min(difference, 2 * pi - difference);
 }
 
-bool colour_in_range(const colour_range &range, const colour_hsv &hsv)
+static bool in_range(const colour_range &range, const colour_hsv &hsv)
 {
     return hsv.saturation >= range.saturation_min && hsv.saturation <= range.saturation_max &&
            hsv.value >= range.value_min &&
@@ -51,7 +51,7 @@ colour_table colour_table_create(const colour_range &range)
             for (int blue = 0; blue < levels; blue++) {
                 const colour_hsv hsv =
                     colour_to_hsv(red * step + middle, green * step + middle, blue * step + middle);
-                table.member.push_back(colour_in_range(range, hsv) ? 255 : 0);
+                table.member.push_back(in_range(range, hsv) ? 255 : 0);
             }
     return table;
 }

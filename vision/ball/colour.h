@@ -35,8 +35,6 @@ colour_hsv colour_to_hsv(double red, double green, double blue);
 /* Shortest way round the circle between two hues; rad, 0 .. pi. */
 double colour_hue_distance(double a, double b);
 
-bool colour_in_range(const colour_range &range, const colour_hsv &hsv);
-
 colour_table colour_table_create(const colour_range &range);
 
 /* 255 for a colour of the ball, else 0. `red` is image_red() of the pixel's picture. */

@@ -20,7 +20,8 @@ static bool cone_of(const direction &m, outline *cone)
     return true;
 }
 
-double outline_distance(const outline &cone, const direction &view, double focal)
+/* Of a direction from the cone, outwards positive; px at the focal length. */
+static double outline_distance(const outline &cone, const direction &view, double focal)
 {
     /* cos(angle) / cos(half) - 1 is, to first order, tan(half) (half - angle). */
     return (1 - direction_dot(cone.axis, view) / cone.cosine) / cone.tangent * focal;

@@ -26,9 +26,6 @@ struct outline {
     double rms;     /* of their distances from it; px */
 };
 
-/* Distance of a direction from the cone, outwards positive; px at the focal length. */
-double outline_distance(const outline &cone, const direction &view, double focal);
-
 /* The cone on which most points agree to `tolerance` px, however wrong the others are: tries cones
  * through three points in a fixed order. Returns false when no three points make a cone. */
 bool outline_consensus(const outline_points &points, double focal, double tolerance, outline *cone);

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "common/base/big_endian.h"
+
 static const uint64_t fingerprint = 0x20ba4f05e8f5e33aULL;
 static const int16_t type_left = 0;
 static const int16_t type_right = 1;
@@ -14,7 +16,7 @@ struct reader {
     bool failed;
 };
 
-static const uint8_t *take(reader *in, size_t n)
+static const uint8_t *take_bytes(reader *in, size_t n)
 {
     const uint8_t *start = in->at;
 
@@ -27,15 +29,11 @@ static const uint8_t *take(reader *in, size_t n)
     return start;
 }
 
-/* LCM sends numbers with the highest byte first. */
-static uint64_t take_number(reader *in, size_t n)
+static uint64_t take_number(reader *in, int n)
 {
-    const uint8_t *bytes = take(in, n);
-    uint64_t value = 0;
+    const uint8_t *bytes = take_bytes(in, static_cast<size_t>(n));
 
-    for (size_t i = 0; bytes && i < n; i++)
-        value = value << 8 | bytes[i];
-    return value;
+    return bytes ? big_endian(bytes, n) : 0;
 }
 
 static int32_t take_int32(reader *in)
@@ -60,11 +58,11 @@ static const char *skip_metadata(reader *in)
         const int32_t key = take_int32(in); /* with its closing zero */
         if (in->failed || key < 1)
             return "a metadata key is damaged";
-        take(in, static_cast<size_t>(key));
+        take_bytes(in, static_cast<size_t>(key));
         const int32_t value = take_int32(in);
         if (in->failed || value < 0)
             return "a metadata value is damaged";
-        take(in, static_cast<size_t>(value));
+        take_bytes(in, static_cast<size_t>(value));
         if (in->failed)
             return "it ends inside an image's metadata";
     }
@@ -109,7 +107,7 @@ static const char *take_image(reader *in, encoded_image *image)
     if (size < 1)
         return "an image's size is out of range";
     image->size = static_cast<size_t>(size);
-    image->data = take(in, image->size);
+    image->data = take_bytes(in, image->size);
     if (!image->data)
         return "it ends inside an image's pixels";
     const char *wrong = check_rows(*image, stride);

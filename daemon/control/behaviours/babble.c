@@ -1,7 +1,9 @@
 /* Motor babbling: random configurations, fixation, one sample at each (paper section 7.1); or,
  * where the end-effector is measured wherever it is, every measurement along the way (section 6.1).
  */
-#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/babble.h"
+
+#include "daemon/control/behaviours/helpers.h"
 
 #include <reach_status_t.h>
 #include <string.h>
@@ -16,104 +18,118 @@ static void draw(struct babble *babble, const struct config *config)
 }
 
 /* A random posture that promises to be of use, or now and then one that does not. */
-static void next_goal(struct babble *babble, struct progress *progress, struct control *control)
+static void next_goal(struct babble *babble, struct progress *progress, const struct senses *senses,
+                      const struct tried *tried)
 {
-    const struct config *config = control->config;
+    const struct config *config = senses->config;
 
     draw(babble, config);
-    for (int k = 1; k < most_draws && !tried_promises(control->tried, config, babble->goal); k++) {
+    for (int k = 1; k < most_draws && !tried_promises(tried, config, babble->goal); k++) {
         if (random_uniform(&babble->random, 0, 1) < daring)
             break;
         draw(babble, config);
     }
-    babble->deadline = control->now + (int64_t)(config->babble_timeout * 1e6);
+    babble->deadline = senses->now + (int64_t)(config->babble_timeout * 1e6);
     progress->phase = REACH_STATUS_T_MOVE;
 }
 
-static void gather(struct progress *progress, struct control *control)
+static void gather_sample(struct progress *progress, const struct senses *senses,
+                          struct wants *wants)
 {
-    control_gather(control, sight_pair_frames(control->config));
+    control_gather(senses, wants, sight_pair_frames(senses->config));
     progress->done++;
 }
 
-void babble_begin(struct babble *babble, int64_t seed, const double *min, const double *max,
-                  struct progress *progress, struct control *control)
+void babble_begin(struct babble *babble, int64_t seed, struct progress *progress,
+                  const struct senses *senses, const struct wants *wants)
 {
-    size_t size = sizeof(double) * (size_t)config_arm_joints(control->config);
-
     babble->random = random_seed(seed);
-    memcpy(babble->min, min, size);
-    memcpy(babble->max, max, size);
-    next_goal(babble, progress, control);
+    next_goal(babble, progress, senses, wants->tried);
+}
+
+static bool babble_accepts(const struct config *config, const reach_request_t *request)
+{
+    (void)config;
+    return control_count_ok(request);
 }
 
 static void babble_start(struct behaviour *behaviour, const reach_request_t *request,
-                         struct control *control)
+                         const struct senses *senses, struct wants *wants)
 {
-    const struct config *config = control->config;
+    struct babble *babble = behaviour_state(behaviour);
 
     behaviour->progress.total = request->count;
-    babble_begin(&behaviour->babble, request->seed, config->babble_min.value,
-                 config->babble_max.value, &behaviour->progress, control);
+    memcpy(babble->min, senses->config->babble_min.value, sizeof babble->min);
+    memcpy(babble->max, senses->config->babble_max.value, sizeof babble->max);
+    babble_begin(babble, request->seed, &behaviour->progress, senses, wants);
 }
 
 /* The arm is there, or as near as it gets: wait for the eyes. */
-static void move(struct babble *babble, struct progress *progress, struct control *control)
+static void go_to_goal(struct babble *babble, struct progress *progress,
+                       const struct senses *senses, struct wants *wants)
 {
-    bool there = control_arm_to(control, babble->goal);
+    bool there = control_arm_to(senses, wants, babble->goal);
 
-    control_gaze(control, false);
-    if (!control->config->space.fixates) {
-        if (control->sight->new_frame)
-            gather(progress, control);
-        if (there || control->now >= babble->deadline)
-            next_goal(babble, progress, control);
+    control_gaze(senses, wants, false);
+    if (!senses->config->space.fixates) {
+        if (senses->sight->new_frame)
+            gather_sample(progress, senses, wants);
+        if (there || senses->now >= babble->deadline)
+            next_goal(babble, progress, senses, wants->tried);
         return;
     }
-    if (there || control->now >= babble->deadline) {
-        babble->deadline = control->now + (int64_t)(control->config->fixation_timeout * 1e6);
+    if (there || senses->now >= babble->deadline) {
+        babble->deadline = senses->now + (int64_t)(senses->config->fixation_timeout * 1e6);
         progress->phase = REACH_STATUS_T_FIXATE;
     }
 }
 
-static void fixate(struct babble *babble, struct progress *progress, struct control *control)
+static void fixate_at_goal(struct babble *babble, struct progress *progress,
+                           const struct senses *senses, struct wants *wants)
 {
     enum gaze_state gaze;
 
-    control_arm_to(control, babble->goal);
-    gaze = control_gaze(control, true);
+    control_arm_to(senses, wants, babble->goal);
+    gaze = control_gaze(senses, wants, true);
     progress->phase = gaze == GAZE_SEARCHING ? REACH_STATUS_T_SEARCH : REACH_STATUS_T_FIXATE;
     /* What was fixated before the eyes went blind is no new sample. */
-    if (gaze == GAZE_ON_MARKER && sight_fixated(control->sight)) {
-        tried_note(control->tried, babble->goal, true);
-        gather(progress, control);
-        next_goal(babble, progress, control);
-    } else if (control->now >= babble->deadline) {
-        tried_note(control->tried, babble->goal, false);
+    if (gaze == GAZE_ON_MARKER && sight_fixated(senses->sight)) {
+        tried_note(wants->tried, babble->goal, true);
+        gather_sample(progress, senses, wants);
+        next_goal(babble, progress, senses, wants->tried);
+    } else if (senses->now >= babble->deadline) {
+        tried_note(wants->tried, babble->goal, false);
         progress->skipped++;
-        next_goal(babble, progress, control);
+        next_goal(babble, progress, senses, wants->tried);
     }
 }
 
-void babble_run(struct babble *babble, struct progress *progress, struct control *control)
+void babble_continue(struct babble *babble, struct progress *progress, const struct senses *senses,
+                     struct wants *wants)
 {
     if (progress->phase == REACH_STATUS_T_MOVE)
-        move(babble, progress, control);
+        go_to_goal(babble, progress, senses, wants);
     else
-        fixate(babble, progress, control);
+        fixate_at_goal(babble, progress, senses, wants);
 }
 
-static bool babble_step(struct behaviour *behaviour, struct control *control)
+static bool babble_step(struct behaviour *behaviour, const struct senses *senses,
+                        struct wants *wants)
 {
     if (behaviour->progress.done >= behaviour->progress.total)
         return false;
-    babble_run(&behaviour->babble, &behaviour->progress, control);
+    babble_continue(behaviour_state(behaviour), &behaviour->progress, senses, wants);
     return true;
 }
 
+BEHAVIOUR_STATE_FITS(struct babble);
+
 const struct behaviour_ops behaviour_babble = {
     .name = "babble",
+    .kind = REACH_REQUEST_T_BABBLE,
     .code = REACH_STATUS_T_BABBLE,
+    .state_size = sizeof(struct babble),
+    .accepts = babble_accepts,
     .start = babble_start,
     .step = babble_step,
 };

@@ -1,6 +1,6 @@
 /* Arm-head coordination (paper section 7.2): the head turns to targets, the arm keeps the marker
  * in fixation. */
-#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/helpers.h"
 #include "daemon/control/behaviours/targets.h"
 #include "daemon/control/limits/motion.h"
 
@@ -8,79 +8,108 @@
 #include <reach_status_t.h>
 #include <string.h>
 
+struct coordinate {
+    struct targets targets;
+    double head_goal[HEAD_JOINTS]; /* rad */
+};
+
+static bool coordinate_accepts(const struct config *config, const reach_request_t *request)
+{
+    return config->space.n_head > 0 && targets_accept(config, request);
+}
+
+static void coordinate_start(struct behaviour *behaviour, const reach_request_t *request,
+                             const struct senses *senses, struct wants *wants)
+{
+    struct coordinate *coordinate = behaviour_state(behaviour);
+
+    (void)wants;
+    targets_begin(&coordinate->targets, &behaviour->progress, request, senses->config);
+}
+
 /* The target is virtual: the direction that its pixel has when it is presented, to which the head
  * then turns by its encoders. */
-static void present(struct behaviour *behaviour, struct control *control, const double *target)
+static void present(struct coordinate *coordinate, const struct senses *senses,
+                    const double *target)
 {
-    const struct config *config = control->config;
-    const double *q_head = control->q + config_arm_joints(config);
+    const struct config *config = senses->config;
+    const double *q_head = senses->q + config_arm_joints(config);
     double turn[SPACE_DIMENSIONS];
 
     space_to_task(&config->space, target, turn);
     for (int i = 0; i < HEAD_JOINTS; i++)
-        behaviour->targets.head_goal[i] =
-            fmin(fmax(q_head[i] + turn[i], config->head_min.value[i] + config->margin),
-                 config->head_max.value[i] - config->margin);
+        coordinate->head_goal[i] =
+            fmin(fmax(q_head[i] + turn[i], config->head_min.value[i] + config->motion_margin),
+                 config->head_max.value[i] - config->motion_margin);
 }
 
 /* Equation 13: the head's velocity fed forward, the marker's image error fed back. */
-static void follow(struct control *control, double disparity)
+static void follow(const struct senses *senses, struct wants *wants, double disparity)
 {
-    const struct config *config = control->config;
-    const double *head_velocity = control->velocity + config_arm_joints(config);
+    const struct config *config = senses->config;
+    const double *head_velocity = wants->velocity + config_arm_joints(config);
     const double centre[SPACE_DIMENSIONS] = {0, 0, disparity};
     double x_velocity[SPACE_DIMENSIONS];
 
-    control_approach(control, centre, config->follow_gain, x_velocity);
+    control_approach(senses, wants, centre, config->task_follow_gain, x_velocity);
     for (int i = 0; i < HEAD_JOINTS; i++)
         x_velocity[i] += head_velocity[i];
-    control_task_velocity(control, x_velocity);
+    control_task_velocity(senses, wants, x_velocity);
 }
 
-static void turn_head(struct behaviour *behaviour, struct control *control)
+static void turn_head(struct coordinate *coordinate, const struct senses *senses,
+                      struct wants *wants)
 {
-    const struct config *config = control->config;
-    struct targets *targets = &behaviour->targets;
+    const struct config *config = senses->config;
+    struct targets *targets = &coordinate->targets;
     int n_arm = config_arm_joints(config);
 
-    targets_slide(config->period, config->head_smoothing, targets->head_goal, targets->setpoint,
+    targets_slide(config->period, config->head_smoothing, coordinate->head_goal, targets->setpoint,
                   HEAD_JOINTS);
-    head_turn(config, control->q + n_arm, targets->setpoint, control->velocity + n_arm);
+    head_turn(config, senses->q + n_arm, targets->setpoint, wants->velocity + n_arm);
     /* Shaped here, since the arm is to follow what the head really does. */
-    motion_shape(config, n_arm, HEAD_JOINTS, control->q, control->previous, control->velocity);
+    motion_shape(config, n_arm, HEAD_JOINTS, senses->q, senses->previous, wants->velocity);
 }
 
-static bool coordinate_step(struct behaviour *behaviour, struct control *control)
+static bool coordinate_step(struct behaviour *behaviour, const struct senses *senses,
+                            struct wants *wants)
 {
+    struct coordinate *coordinate = behaviour_state(behaviour);
+    struct targets *targets = &coordinate->targets;
     const double *target = NULL;
 
-    switch (targets_step(behaviour, control, &target)) {
+    switch (targets_step(targets, &behaviour->progress, senses, wants, &target)) {
     case TARGETS_PREPARE:
-        memcpy(behaviour->targets.setpoint, control->q + config_arm_joints(control->config),
+        memcpy(targets->setpoint, senses->q + config_arm_joints(senses->config),
                HEAD_JOINTS * sizeof(double));
         return true;
     case TARGETS_DONE:
         return false;
     case TARGETS_PRESENT:
-        present(behaviour, control, target);
+        present(coordinate, senses, target);
         break;
     case TARGETS_PURSUE:
         break;
     }
-    if (!sight_seen(control->sight, control->now)) {
-        targets_refixate(behaviour);
+    if (!sight_seen(senses->sight, senses->now)) {
+        targets_refixate(targets, &behaviour->progress);
         return true;
     }
-    turn_head(behaviour, control);
-    follow(control, target[2]);
-    if (control->sight->new_frame && sight_centred(control->sight))
-        control_gather(control, 1);
+    turn_head(coordinate, senses, wants);
+    follow(senses, wants, target[2]);
+    if (senses->sight->new_frame && sight_centred(senses->sight))
+        control_gather(senses, wants, 1);
     return true;
 }
 
+BEHAVIOUR_STATE_FITS(struct coordinate);
+
 const struct behaviour_ops behaviour_coordinate = {
     .name = "coordinate",
+    .kind = REACH_REQUEST_T_COORDINATE,
     .code = REACH_STATUS_T_COORDINATE,
-    .start = targets_start,
+    .state_size = sizeof(struct coordinate),
+    .accepts = coordinate_accepts,
+    .start = coordinate_start,
     .step = coordinate_step,
 };

@@ -6,7 +6,8 @@
  * where it knows. Goals come with a random posture, which the joints that the goal leaves free go
  * to: a redundant arm would else know one posture for each place. A goal that gets no nearer is
  * given up: that is how the edge of the workspace is found. */
-#include "daemon/control/behaviours/behaviour.h"
+#include "common/base/random.h"
+#include "daemon/control/behaviours/helpers.h"
 
 #include <math.h>
 #include <reach_status_t.h>
@@ -18,6 +19,30 @@ static const double compare_at = 0.05;   /* motion after which prediction and tr
 static const double compare_weight = 0.2;
 static const double speed_least = 0.1; /* share of its speed that the arm keeps while eyes lag */
 static const int64_t noise_us = 400000;
+
+struct explore {
+    struct random_state random;
+
+    /* What was visited: a box in task space. Goals lie in it, and a little beyond. */
+    bool any;
+    double low[SPACE_DIMENSIONS], high[SPACE_DIMENSIONS];
+    double q_seen[MAX_JOINTS]; /* where the end-effector was last seen well, rad */
+
+    double goal[SPACE_DIMENSIONS]; /* task units */
+    double posture[MAX_JOINTS];    /* that the null space goes to meanwhile, rad */
+    double nearest;                /* to the goal so far, scaled */
+    int64_t nearest_at;            /* us */
+
+    double noise[MAX_JOINTS]; /* present direction, -1 .. 1 */
+    int64_t noise_until;      /* us */
+
+    /* How wrong the model is about what moving does: share of the motion, 1 = knows nothing. */
+    double ignorance;
+    bool compared;                      /* `q` and the rest hold */
+    double q[MAX_JOINTS];               /* arm joints of the last sample, rad */
+    double x_before[SPACE_DIMENSIONS];  /* where the comparison began */
+    double predicted[SPACE_DIMENSIONS]; /* how far it should have moved since, task units */
+};
 
 static double scaled_norm(const struct config *config, const double *x)
 {
@@ -42,14 +67,21 @@ static void next_goal(struct explore *explore, const struct config *config, int6
     explore->nearest_at = now;
 }
 
-static void explore_start(struct behaviour *behaviour, const reach_request_t *request,
-                          struct control *control)
+static bool explore_accepts(const struct config *config, const reach_request_t *request)
 {
-    struct explore *explore = &behaviour->explore;
+    (void)config;
+    return control_count_ok(request);
+}
 
+static void explore_start(struct behaviour *behaviour, const reach_request_t *request,
+                          const struct senses *senses, struct wants *wants)
+{
+    struct explore *explore = behaviour_state(behaviour);
+
+    (void)wants;
     explore->random = random_seed(request->seed);
     explore->ignorance = 1;
-    memcpy(explore->q_seen, control->q, sizeof explore->q_seen);
+    memcpy(explore->q_seen, senses->q, sizeof explore->q_seen);
     behaviour->progress.total = request->count;
     behaviour->progress.phase = REACH_STATUS_T_TRACK;
 }
@@ -64,10 +96,11 @@ static void widen(struct explore *explore, const double *x)
 }
 
 /* Adds the motion since the last sample as the model sees it, and compares once there is enough. */
-static void compare(struct explore *explore, const struct control *control, const struct pair *pair)
+static void compare_motion(struct explore *explore, const struct senses *senses,
+                           const struct pair *pair)
 {
-    const struct config *config = control->config;
-    const double *jacobian = select_jacobian(control->selection);
+    const struct config *config = senses->config;
+    const double *jacobian = estimate_jacobian(senses->estimate);
     int n = config_arm_joints(config);
     double moved[SPACE_DIMENSIONS], missed[SPACE_DIMENSIONS], most;
 
@@ -90,108 +123,115 @@ static void compare(struct explore *explore, const struct control *control, cons
     memset(explore->predicted, 0, sizeof explore->predicted);
 }
 
-static void gather(struct behaviour *behaviour, struct control *control)
+static void gather_sample(struct behaviour *behaviour, const struct senses *senses,
+                          struct wants *wants)
 {
-    struct explore *explore = &behaviour->explore;
+    struct explore *explore = behaviour_state(behaviour);
 
-    if (!control->sight->new_frame ||
-        !sight_within(control->sight, control->config->explore_tolerance))
+    if (!senses->sight->new_frame ||
+        !sight_within(senses->sight, senses->config->explore_tolerance))
         return;
-    control_gather(control, 1);
+    control_gather(senses, wants, 1);
     behaviour->progress.done++;
-    compare(explore, control, &control->pair);
+    compare_motion(explore, senses, &wants->pair);
     if (!explore->any)
-        next_goal(explore, control->config, control->now);
-    widen(explore, control->pair.x);
-    memcpy(explore->q_seen, control->q, sizeof explore->q_seen);
+        next_goal(explore, senses->config, senses->now);
+    widen(explore, wants->pair.x);
+    memcpy(explore->q_seen, senses->q, sizeof explore->q_seen);
 }
 
 /* Goes on to the next goal when this one is reached, or gets no nearer. */
-static void judge(struct behaviour *behaviour, const struct control *control, double distance)
+static void judge(struct behaviour *behaviour, const struct senses *senses, double distance)
 {
-    struct explore *explore = &behaviour->explore;
-    int64_t patience = (int64_t)(control->config->explore_patience * 1e6);
+    struct explore *explore = behaviour_state(behaviour);
+    int64_t patience = (int64_t)(senses->config->explore_patience * 1e6);
 
     if (distance < progress_most * explore->nearest) {
         explore->nearest = distance;
-        explore->nearest_at = control->now;
+        explore->nearest_at = senses->now;
     }
     if (distance < reached) {
-        next_goal(explore, control->config, control->now);
-    } else if (control->now - explore->nearest_at > patience) {
+        next_goal(explore, senses->config, senses->now);
+    } else if (senses->now - explore->nearest_at > patience) {
         behaviour->progress.skipped++;
-        next_goal(explore, control->config, control->now);
+        next_goal(explore, senses->config, senses->now);
     }
 }
 
 /* Random motion of every joint, as strong as the model is ignorant. */
-static void stir(struct explore *explore, struct control *control)
+static void stir(struct explore *explore, const struct senses *senses, struct wants *wants)
 {
-    int n = config_arm_joints(control->config);
+    int n = config_arm_joints(senses->config);
 
-    if (control->now >= explore->noise_until) {
+    if (senses->now >= explore->noise_until) {
         for (int i = 0; i < n; i++)
             explore->noise[i] = random_uniform(&explore->random, -1, 1);
-        explore->noise_until = control->now + noise_us;
+        explore->noise_until = senses->now + noise_us;
     }
     for (int i = 0; i < n; i++)
-        control->velocity[i] +=
-            explore->ignorance * control->config->explore_noise * explore->noise[i];
+        wants->velocity[i] +=
+            explore->ignorance * senses->config->explore_noise * explore->noise[i];
 }
 
 /* The eyes are to keep up: the arm slows down as the marker leaves the centre. */
-static void wait_for_eyes(struct control *control)
+static void wait_for_eyes(const struct senses *senses, struct wants *wants)
 {
-    const struct config *config = control->config;
-    double share = 1 - sight_eccentricity(control->sight) / (2 * config->explore_tolerance);
+    const struct config *config = senses->config;
+    double share = 1 - sight_eccentricity(senses->sight) / (2 * config->explore_tolerance);
 
     for (int i = 0; config->space.fixates && i < config_arm_joints(config); i++)
-        control->velocity[i] *= fmax(share, speed_least);
+        wants->velocity[i] *= fmax(share, speed_least);
 }
 
-static void try_goal(struct behaviour *behaviour, struct control *control)
+static void try_goal(struct behaviour *behaviour, const struct senses *senses, struct wants *wants)
 {
-    const struct config *config = control->config;
-    struct explore *explore = &behaviour->explore;
+    const struct config *config = senses->config;
+    struct explore *explore = behaviour_state(behaviour);
     double x[SPACE_DIMENSIONS], left[SPACE_DIMENSIONS], distance, gain;
 
-    sight_position(control->sight, control->q, x);
+    sight_position(senses->sight, senses->q, x);
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
         left[row] = explore->goal[row] - x[row];
     distance = scaled_norm(config, left);
-    judge(behaviour, control, distance);
+    judge(behaviour, senses, distance);
     gain = fmin(config->task_gain, config->explore_speed / fmax(distance, 1e-9));
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
         left[row] *= gain;
     /* Where it knows nothing, all joints are free: what it does then is `stir`'s. */
-    control_task_velocity_by(control, left, explore->posture,
+    control_task_velocity_by(senses, wants, left, explore->posture,
                              (1 - explore->ignorance) * config->explore_secondary_gain);
 }
 
-static bool explore_step(struct behaviour *behaviour, struct control *control)
+static bool explore_step(struct behaviour *behaviour, const struct senses *senses,
+                         struct wants *wants)
 {
-    struct explore *explore = &behaviour->explore;
-    enum gaze_state gaze = control_gaze(control, true);
+    struct explore *explore = behaviour_state(behaviour);
+    enum gaze_state gaze = control_gaze(senses, wants, true);
 
     if (behaviour->progress.done >= behaviour->progress.total)
         return false;
     behaviour->progress.phase =
         gaze == GAZE_ON_MARKER ? REACH_STATUS_T_TRACK : REACH_STATUS_T_SEARCH;
     if (gaze != GAZE_ON_MARKER) {
-        control_arm_to(control, explore->q_seen);
+        control_arm_to(senses, wants, explore->q_seen);
         return true;
     }
-    gather(behaviour, control);
+    gather_sample(behaviour, senses, wants);
     if (explore->any)
-        try_goal(behaviour, control);
-    stir(explore, control);
-    wait_for_eyes(control);
+        try_goal(behaviour, senses, wants);
+    stir(explore, senses, wants);
+    wait_for_eyes(senses, wants);
     return true;
 }
 
+BEHAVIOUR_STATE_FITS(struct explore);
+
 const struct behaviour_ops behaviour_explore = {
     .name = "explore",
+    .kind = REACH_REQUEST_T_EXPLORE,
     .code = REACH_STATUS_T_EXPLORE,
+    .state_size = sizeof(struct explore),
+    .accepts = explore_accepts,
     .start = explore_start,
     .step = explore_step,
 };

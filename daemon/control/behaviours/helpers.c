@@ -1,70 +1,61 @@
-#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/helpers.h"
 
 #include "daemon/control/kinematics/taskspace.h"
 #include "daemon/control/limits/motion.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
-const struct behaviour_ops *behaviour_for_request(int8_t kind)
+static const int32_t count_most = 10000000; /* samples of one request */
+
+bool control_count_ok(const reach_request_t *request)
 {
-    switch (kind) {
-    case REACH_REQUEST_T_BABBLE:
-        return &behaviour_babble;
-    case REACH_REQUEST_T_COORDINATE:
-        return &behaviour_coordinate;
-    case REACH_REQUEST_T_EXPLORE:
-        return &behaviour_explore;
-    case REACH_REQUEST_T_REACH:
-        return &behaviour_reach;
-    default:
-        return NULL;
-    }
+    return request->count >= 1 && request->count <= count_most;
 }
 
-bool control_arm_to(struct control *control, const double *goal)
+bool control_arm_to(const struct senses *senses, struct wants *wants, const double *goal)
 {
     bool there = true;
 
-    for (int i = 0; i < config_arm_joints(control->config); i++) {
-        double error = goal[i] - control->q[i];
-        control->velocity[i] = control->config->babble_gain * error;
-        there = there && fabs(error) <= control->config->babble_tolerance;
+    for (int i = 0; i < config_arm_joints(senses->config); i++) {
+        double error = goal[i] - senses->q[i];
+        wants->velocity[i] = senses->config->babble_gain * error;
+        there = there && fabs(error) <= senses->config->babble_tolerance;
     }
     return there;
 }
 
-enum gaze_state control_gaze(struct control *control, bool may_search)
+enum gaze_state control_gaze(const struct senses *senses, struct wants *wants, bool may_search)
 {
-    int n_arm = config_arm_joints(control->config);
+    int n_arm = config_arm_joints(senses->config);
 
-    if (control->config->space.n_head == 0)
-        return sight_seen(control->sight, control->now) ? GAZE_ON_MARKER : GAZE_WAITING;
-    return gaze_step(control->gaze, control->sight, control->now, control->q + n_arm, may_search,
-                     control->velocity + n_arm);
+    if (senses->config->space.n_head == 0)
+        return sight_seen(senses->sight, senses->now) ? GAZE_ON_MARKER : GAZE_WAITING;
+    return gaze_step(wants->gaze, senses->sight, senses->now, senses->q + n_arm, may_search,
+                     wants->velocity + n_arm);
 }
 
-void control_task_velocity(struct control *control, const double *x_velocity)
+void control_task_velocity(const struct senses *senses, struct wants *wants,
+                           const double *x_velocity)
 {
-    const struct config *config = control->config;
+    const struct config *config = senses->config;
     double middle[MAX_JOINTS];
 
     for (int i = 0; i < config_arm_joints(config); i++)
         middle[i] = 0.5 * (config->arm_min.value[i] + config->arm_max.value[i]);
-    control_task_velocity_by(control, x_velocity, middle, config->secondary_gain);
+    control_task_velocity_by(senses, wants, x_velocity, middle, config->task_secondary_gain);
 }
 
-void control_task_velocity_by(struct control *control, const double *x_velocity,
-                              const double *posture, double gain)
+void control_task_velocity_by(const struct senses *senses, struct wants *wants,
+                              const double *x_velocity, const double *posture, double gain)
 {
-    const struct config *config = control->config;
-    const double *jacobian = select_jacobian(control->selection);
+    const struct config *config = senses->config;
+    const double *jacobian = estimate_jacobian(senses->estimate);
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
         .n_outputs = SPACE_DIMENSIONS,
-        .threshold = config->singular_threshold,
-        .damping_max = config->damping_max,
+        .threshold = config->task_singular_threshold,
+        .damping_max = config->task_damping_max,
         .secondary_gain = gain,
     };
 
@@ -75,26 +66,26 @@ void control_task_velocity_by(struct control *control, const double *x_velocity,
     memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
     memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
     for (int i = 0; i < taskspace.n_joints; i++)
-        motion_range(config, i, control->q[i], &taskspace.slowest[i], &taskspace.fastest[i]);
-    taskspace_velocity(&taskspace, jacobian, x_velocity, control->q, control->velocity);
+        motion_range(config, i, senses->q[i], &taskspace.slowest[i], &taskspace.fastest[i]);
+    taskspace_velocity(&taskspace, jacobian, x_velocity, senses->q, wants->velocity);
 }
 
-void control_approach(struct control *control, const double *target, double gain,
-                      double *x_velocity)
+void control_approach(const struct senses *senses, struct wants *wants, const double *target,
+                      double gain, double *x_velocity)
 {
     double error[SPACE_DIMENSIONS];
 
-    memcpy(control->target, target, sizeof control->target);
-    control->has_target = true;
+    memcpy(wants->target, target, sizeof wants->target);
+    wants->has_target = true;
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        error[row] = gain * (target[row] - control->sight->carried[row]);
-    space_to_task(&control->config->space, error, x_velocity);
+        error[row] = gain * (target[row] - senses->sight->carried[row]);
+    space_to_task(&senses->config->space, error, x_velocity);
 }
 
-void control_gather(struct control *control, int n)
+void control_gather(const struct senses *senses, struct wants *wants, int n)
 {
-    sight_pair(control->sight, n, control->pair.q, control->pair.x, &control->pair.utime);
-    control->has_pair = true;
+    sight_pair(senses->sight, n, wants->pair.q, wants->pair.x, &wants->pair.utime);
+    wants->has_pair = true;
 }
 
 void control_babble_centre(const struct config *config, double *goal)

@@ -5,10 +5,20 @@
 #ifndef REACH_DAEMON_CONTROL_BEHAVIOURS_PRACTICE_H
 #define REACH_DAEMON_CONTROL_BEHAVIOURS_PRACTICE_H
 
-#include "daemon/control/behaviours/behaviour.h"
+#include "daemon/control/behaviours/babble.h"
+#include "daemon/control/behaviours/targets.h"
 
-/* One tick, before the targets'.
+struct practice {
+    bool on;
+    bool again;     /* the present target was practised for already */
+    uint8_t missed; /* of the newest targets, the newest in bit 0 */
+    struct babble babble;
+    struct progress progress;
+};
+
+/* One tick, before that of the behaviour's targets.
  *   returns false when there is nothing to practise: the targets have the tick. */
-bool practice_step(struct behaviour *behaviour, struct control *control);
+bool practice_step(struct practice *practice, struct behaviour *behaviour, struct targets *targets,
+                   const struct senses *senses, struct wants *wants);
 
 #endif

@@ -1,55 +1,65 @@
 #include "daemon/control/behaviours/targets.h"
 
 #include "common/base/elementary.h"
+#include "daemon/control/behaviours/helpers.h"
 
 #include <reach_status_t.h>
 #include <string.h>
 
-void targets_start(struct behaviour *behaviour, const reach_request_t *request,
-                   struct control *control)
-{
-    struct targets *targets = &behaviour->targets;
+static const double period_most = 3600; /* s */
 
+bool targets_accept(const struct config *config, const reach_request_t *request)
+{
+    if (request->n_targets < 1 || request->n_targets > MAX_TARGETS ||
+        !(request->period > 0 && request->period <= period_most))
+        return false;
+    for (int i = 0; i < request->n_targets; i++)
+        if (!observation_is_sensible(&config->space, request->target[i]))
+            return false;
+    return request->count == 0 || request->count == 1;
+}
+
+void targets_begin(struct targets *targets, struct progress *progress,
+                   const reach_request_t *request, const struct config *config)
+{
     targets->n = request->n_targets;
     memcpy(targets->target, request->target, sizeof targets->target);
     targets->period = (int64_t)(request->period * 1e6);
-    control_babble_centre(control->config, targets->start);
-    behaviour->progress.total = targets->n;
-    behaviour->progress.phase = request->count == 1 ? REACH_STATUS_T_MOVE : REACH_STATUS_T_FIXATE;
+    control_babble_centre(config, targets->start);
+    progress->total = targets->n;
+    progress->phase = request->count == 1 ? REACH_STATUS_T_MOVE : REACH_STATUS_T_FIXATE;
 }
 
-void targets_refixate(struct behaviour *behaviour)
+void targets_refixate(struct targets *targets, struct progress *progress)
 {
-    behaviour->targets.deadline = 0;
-    behaviour->progress.phase = REACH_STATUS_T_FIXATE;
+    targets->deadline = 0;
+    progress->phase = REACH_STATUS_T_FIXATE;
 }
 
-void targets_restart(struct behaviour *behaviour)
+void targets_restart(struct targets *targets, struct progress *progress)
 {
-    behaviour->targets.deadline = 0;
-    behaviour->progress.phase = REACH_STATUS_T_MOVE;
+    targets->deadline = 0;
+    progress->phase = REACH_STATUS_T_MOVE;
 }
 
 /* The phases before the first target. */
-static void prepare(struct behaviour *behaviour, struct control *control)
+static void prepare(struct targets *targets, struct progress *progress, const struct senses *senses,
+                    struct wants *wants)
 {
-    struct progress *progress = &behaviour->progress;
-    struct targets *targets = &behaviour->targets;
-
     if (progress->phase == REACH_STATUS_T_MOVE) {
-        if (control_arm_to(control, targets->start))
+        if (control_arm_to(senses, wants, targets->start))
             progress->phase = REACH_STATUS_T_FIXATE;
-        control_gaze(control, false);
+        control_gaze(senses, wants, false);
         return;
     }
-    if (control_gaze(control, true) == GAZE_SEARCHING)
+    if (control_gaze(senses, wants, true) == GAZE_SEARCHING)
         progress->phase = REACH_STATUS_T_SEARCH;
     else
         progress->phase = REACH_STATUS_T_FIXATE;
-    if (!sight_fixated(control->sight))
+    if (!sight_fixated(senses->sight))
         return;
-    control_gather(control, sight_pair_frames(control->config));
-    memcpy(targets->start, control->q, sizeof targets->start);
+    control_gather(senses, wants, sight_pair_frames(senses->config));
+    memcpy(targets->start, senses->q, sizeof targets->start);
     progress->phase = REACH_STATUS_T_TRACK;
 }
 
@@ -61,18 +71,17 @@ void targets_slide(double period, double smoothing, const double *target, double
         setpoint[i] += share * (target[i] - setpoint[i]);
 }
 
-enum targets_work targets_step(struct behaviour *behaviour, struct control *control,
+enum targets_work targets_step(struct targets *targets, struct progress *progress,
+                               const struct senses *senses, struct wants *wants,
                                const double **target)
 {
-    struct targets *targets = &behaviour->targets;
-    struct progress *progress = &behaviour->progress;
     bool is_new = targets->deadline == 0;
 
     if (progress->phase != REACH_STATUS_T_TRACK) {
-        prepare(behaviour, control);
+        prepare(targets, progress, senses, wants);
         return TARGETS_PREPARE;
     }
-    if (!is_new && control->now >= targets->deadline) {
+    if (!is_new && senses->now >= targets->deadline) {
         progress->done++;
         is_new = true;
     }
@@ -81,6 +90,6 @@ enum targets_work targets_step(struct behaviour *behaviour, struct control *cont
     *target = targets->target[progress->done];
     if (!is_new)
         return TARGETS_PURSUE;
-    targets->deadline = control->now + targets->period;
+    targets->deadline = senses->now + targets->period;
     return TARGETS_PRESENT;
 }

@@ -5,9 +5,22 @@
 
 #include "daemon/control/behaviours/behaviour.h"
 
+struct targets {
+    int n;
+    double target[MAX_TARGETS][SPACE_DIMENSIONS]; /* px or m */
+    int64_t period;                               /* us */
+    int64_t deadline;                             /* us */
+    double start[MAX_JOINTS]; /* where the arm was fixated, or goes to for that; rad */
+    /* Where the arm that reaches is to be by now (px or m), or the head that turns (rad). */
+    double setpoint[SPACE_DIMENSIONS];
+};
+
+/* Whether a request's targets make sense in the task space, and its period. */
+bool targets_accept(const struct config *config, const reach_request_t *request);
+
 /* Copies the request's targets and enters the first phase. */
-void targets_start(struct behaviour *behaviour, const reach_request_t *request,
-                   struct control *control);
+void targets_begin(struct targets *targets, struct progress *progress,
+                   const reach_request_t *request, const struct config *config);
 
 /* What a tick of such a behaviour has to do. */
 enum targets_work {
@@ -20,8 +33,9 @@ enum targets_work {
 
 /* One tick. First the arm goes to the middle of the babbled range when that was asked for, then
  * the marker is fixated, from where equation 14 starts, and the pair is gathered. Then one target
- * after another: *target is it, in px, owned by the behaviour. */
-enum targets_work targets_step(struct behaviour *behaviour, struct control *control,
+ * after another: *target is it, in px, one of `targets`. */
+enum targets_work targets_step(struct targets *targets, struct progress *progress,
+                               const struct senses *senses, struct wants *wants,
                                const double **target);
 
 /* The set-point slides from one target to the next instead of jumping, by a first-order filter,
@@ -31,10 +45,10 @@ enum targets_work targets_step(struct behaviour *behaviour, struct control *cont
 void targets_slide(double period, double smoothing, const double *target, double *setpoint, int n);
 
 /* The marker was lost for too long: back to fixation, then on with the present target. */
-void targets_refixate(struct behaviour *behaviour);
+void targets_refixate(struct targets *targets, struct progress *progress);
 
 /* Back to where the marker was fixated before, which brings the head to where it was, and from
  * there on with the present target. */
-void targets_restart(struct behaviour *behaviour);
+void targets_restart(struct targets *targets, struct progress *progress);
 
 #endif

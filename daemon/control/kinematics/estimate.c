@@ -3,57 +3,57 @@
 #include <math.h>
 #include <string.h>
 
-void select_init(struct selection *selection, int n_inputs, int n_outputs, const double *scale)
+void estimate_init(struct estimate *estimate, int n_inputs, int n_outputs, const double *scale)
 {
-    memset(selection, 0, sizeof *selection);
-    selection->n_inputs = n_inputs;
-    selection->n_outputs = n_outputs;
-    selection->solution = -1;
-    memcpy(selection->scale, scale, sizeof(double) * (size_t)n_outputs);
+    memset(estimate, 0, sizeof *estimate);
+    estimate->n_inputs = n_inputs;
+    estimate->n_outputs = n_outputs;
+    estimate->solution = -1;
+    memcpy(estimate->scale, scale, sizeof(double) * (size_t)n_outputs);
 }
 
-const double *select_jacobian(const struct selection *selection)
+const double *estimate_jacobian(const struct estimate *estimate)
 {
-    if (selection->solution < 0)
+    if (estimate->solution < 0)
         return NULL;
-    return selection->prediction.solution[selection->solution].jacobian;
+    return estimate->prediction.solution[estimate->solution].jacobian;
 }
 
-const double *select_value(const struct selection *selection)
+const double *estimate_value(const struct estimate *estimate)
 {
-    if (selection->solution < 0)
+    if (estimate->solution < 0)
         return NULL;
-    return selection->prediction.solution[selection->solution].value;
+    return estimate->prediction.solution[estimate->solution].value;
 }
 
-void select_integrate(struct selection *selection, const double *q)
+void estimate_integrate(struct estimate *estimate, const double *q)
 {
-    const double *jacobian = select_jacobian(selection);
-    int d = selection->n_inputs;
+    const double *jacobian = estimate_jacobian(estimate);
+    int d = estimate->n_inputs;
 
-    for (int row = 0; jacobian && selection->moved_from && row < selection->n_outputs; row++)
+    for (int row = 0; jacobian && estimate->moved_from && row < estimate->n_outputs; row++)
         for (int i = 0; i < d; i++)
-            selection->x_estimated[row] += jacobian[row * d + i] * (q[i] - selection->q_last[i]);
-    memcpy(selection->q_last, q, sizeof(double) * (size_t)d);
-    selection->moved_from = true;
+            estimate->x_estimated[row] += jacobian[row * d + i] * (q[i] - estimate->q_last[i]);
+    memcpy(estimate->q_last, q, sizeof(double) * (size_t)d);
+    estimate->moved_from = true;
 }
 
-void select_anchor(struct selection *selection, const double *x)
+void estimate_anchor(struct estimate *estimate, const double *x)
 {
-    memcpy(selection->x_estimated, x, sizeof(double) * (size_t)selection->n_outputs);
-    selection->anchored = true;
+    memcpy(estimate->x_estimated, x, sizeof(double) * (size_t)estimate->n_outputs);
+    estimate->anchored = true;
 }
 
-int select_closest(const struct selection *selection, const struct learner_prediction *prediction,
-                   const double *x)
+int estimate_closest(const struct estimate *estimate, const struct learner_prediction *prediction,
+                     const double *x)
 {
     double least = INFINITY;
     int closest = -1;
 
     for (int k = 0; k < prediction->n_solutions; k++) {
         double distance = 0;
-        for (int row = 0; row < selection->n_outputs; row++) {
-            double e = (prediction->solution[k].value[row] - x[row]) / selection->scale[row];
+        for (int row = 0; row < estimate->n_outputs; row++) {
+            double e = (prediction->solution[k].value[row] - x[row]) / estimate->scale[row];
             distance += e * e;
         }
         if (distance < least) {
@@ -64,12 +64,12 @@ int select_closest(const struct selection *selection, const struct learner_predi
     return closest;
 }
 
-void select_solution(struct selection *selection, struct learner *learner, const double *q)
+void estimate_choose(struct estimate *estimate, struct learner *learner, const double *q)
 {
-    learner_predict(learner, q, &selection->prediction);
-    if (selection->anchored)
-        selection->solution =
-            select_closest(selection, &selection->prediction, selection->x_estimated);
+    learner_predict(learner, q, &estimate->prediction);
+    if (estimate->anchored)
+        estimate->solution =
+            estimate_closest(estimate, &estimate->prediction, estimate->x_estimated);
     else
-        selection->solution = selection->prediction.n_solutions > 0 ? 0 : -1;
+        estimate->solution = estimate->prediction.n_solutions > 0 ? 0 : -1;
 }

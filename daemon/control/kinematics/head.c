@@ -36,8 +36,8 @@ static void choose_goal(struct head_search *search, const struct config *config)
 {
     for (int i = 0; i < HEAD_JOINTS; i++)
         search->goal[i] =
-            random_uniform(&search->random, config->head_min.value[i] + config->margin,
-                           config->head_max.value[i] - config->margin);
+            random_uniform(&search->random, config->head_min.value[i] + config->motion_margin,
+                           config->head_max.value[i] - config->motion_margin);
     search->rest_until = 0;
     search->active = true;
 }
@@ -53,8 +53,9 @@ void head_search_step(struct head_search *search, const struct config *config, i
     if (!search->active || (search->rest_until && now >= search->rest_until))
         choose_goal(search, config);
     if (!search->rest_until && at_goal(search, q))
-        search->rest_until = now + (int64_t)(config->search_dwell * 1e6);
+        search->rest_until = now + (int64_t)(config->head_search_dwell * 1e6);
     head_turn(config, q, search->goal, velocity);
     for (int i = 0; i < HEAD_JOINTS; i++)
-        velocity[i] = fmax(-config->search_velocity, fmin(config->search_velocity, velocity[i]));
+        velocity[i] =
+            fmax(-config->head_search_velocity, fmin(config->head_search_velocity, velocity[i]));
 }

@@ -25,8 +25,8 @@ void motion_range(const struct config *config, int joint, double q, double *down
 {
     struct joint_limits limits = config_joint_limits(config, joint);
 
-    *down = fmin(config->slow_down * (limits.min + config->margin - q), 0);
-    *up = fmax(config->slow_down * (limits.max - config->margin - q), 0);
+    *down = fmin(config->motion_slow_down * (limits.min + config->motion_margin - q), 0);
+    *up = fmax(config->motion_slow_down * (limits.max - config->motion_margin - q), 0);
 }
 
 void motion_shape(const struct config *config, int first, int n, const double *q,

@@ -10,7 +10,7 @@ void safety_init(struct safety *safety, const struct config *config)
 }
 
 /* The last command, in force for so many periods. */
-static void move(struct safety *safety, double periods)
+static void hold_command(struct safety *safety, double periods)
 {
     safety->newest = (safety->newest + 1) % SAFETY_RECENT;
     safety->since += safety->since < SAFETY_RECENT;
@@ -32,7 +32,7 @@ void safety_measured(struct safety *safety)
 void safety_held(struct safety *safety, int64_t periods)
 {
     if (periods > 0)
-        move(safety, (double)periods);
+        hold_command(safety, (double)periods);
 }
 
 /* The greatest v for which v hold + v^2 / (2 acceleration) is at most `room`: held for so long,
@@ -49,7 +49,7 @@ static double allowed(const struct safety *safety, int joint, double sign, doubl
 {
     const struct config *config = safety->config;
     double most = config_joint_limits(config, joint).safety_acceleration;
-    int late = (int)ceil(config->latency / config->period - 1e-9) + 1;
+    int late = (int)ceil(config->safety_latency / config->period - 1e-9) + 1;
     double fastest = 0;
 
     if (safety->since + late > SAFETY_RECENT)
@@ -58,9 +58,9 @@ static double allowed(const struct safety *safety, int joint, double sign, doubl
         room -= way(safety, joint, sign, k);
     for (int k = 0; k < safety->since + late; k++)
         fastest = fmax(fastest, way(safety, joint, sign, k));
-    return fmin(stoppable(room - late * fastest, config->period + config->latency, most),
+    return fmin(stoppable(room - late * fastest, config->period + config->safety_latency, most),
                 stoppable(room - way(safety, joint, sign, safety->since),
-                          config->period + config->reaction, most));
+                          config->period + config->safety_reaction, most));
 }
 
 static double gate_joint(const struct safety *safety, int joint, double q, double velocity)
@@ -89,7 +89,7 @@ bool safety_gate(struct safety *safety, const double *q, double *velocity)
         velocity[i] = gated;
         safety->previous[i] = gated;
     }
-    move(safety, 1);
+    hold_command(safety, 1);
     safety->changed += changed;
     return changed;
 }
@@ -114,7 +114,7 @@ void safety_was_braked(struct safety *safety, int braking_commands)
 {
     for (int i = 0; i < braking_commands && !safety_at_rest(safety->previous); i++) {
         safety_brake(safety->config, safety->previous);
-        move(safety, 1);
+        hold_command(safety, 1);
     }
 }
 

@@ -19,8 +19,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define SAFETY_RECENT 64 /* periods; config_load keeps safety.latency far below it */
-
 struct safety {
     const struct config *config;
     double previous[MAX_JOINTS];           /* last command that passed, rad/s */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A value that moves farther than this in one tick has jumped; in units of the selection's scale,
+/* A value that moves farther than this in one tick has jumped; in units of the estimate's scale,
  * in which the fastest arm moves some 0.1. */
 static const double jump = 0.25;
 
@@ -14,13 +14,13 @@ void context_init(struct context *context)
     context->waiting = -1;
 }
 
-static bool jumped(const struct context *context, const struct selection *selection,
+static bool jumped(const struct context *context, const struct estimate *estimate,
                    const double *value)
 {
     double square = 0;
 
-    for (int row = 0; row < selection->n_outputs; row++) {
-        double step = (value[row] - context->value[row]) / selection->scale[row];
+    for (int row = 0; row < estimate->n_outputs; row++) {
+        double step = (value[row] - context->value[row]) / estimate->scale[row];
         square += step * step;
     }
     return sqrt(square) > jump;
@@ -42,19 +42,19 @@ static void wait_for(struct context *context, int principal)
     context->waiting = -1;
 }
 
-void context_follow(struct context *context, const struct selection *selection)
+void context_follow(struct context *context, const struct estimate *estimate)
 {
-    const double *value = select_value(selection);
+    const double *value = estimate_value(estimate);
 
     if (!value) {
         context->principal = -1;
         return;
     }
-    int principal = selection->prediction.solution[selection->solution].principal;
+    int principal = estimate->prediction.solution[estimate->solution].principal;
     if (principal >= CONTEXT_EXPERTS)
         return;
     bool passed_on = context->principal >= 0 && context->principal != principal &&
-                     !jumped(context, selection, value);
+                     !jumped(context, estimate, value);
     if (passed_on && context->label[principal] == 0)
         context->label[principal] = context->label[context->principal];
     if (context->current > 0 && context->label[principal] == context->current)
@@ -62,5 +62,5 @@ void context_follow(struct context *context, const struct selection *selection)
     else
         wait_for(context, principal);
     context->principal = principal;
-    memcpy(context->value, value, sizeof(double) * (size_t)selection->n_outputs);
+    memcpy(context->value, value, sizeof(double) * (size_t)estimate->n_outputs);
 }

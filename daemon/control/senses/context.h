@@ -32,6 +32,6 @@ struct context {
 void context_init(struct context *context);
 
 /* One tick: looks at the solution in use. */
-void context_follow(struct context *context, const struct selection *selection);
+void context_follow(struct context *context, const struct estimate *estimate);
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "daemon/config/space.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 struct observation {
@@ -14,5 +16,16 @@ struct observation {
     double value[SPACE_DIMENSIONS];
     uint32_t checksum; /* of the message, as trace_t wants it */
 };
+
+/* Whether the task space could have this, seen or wanted: finite, and not absurdly far. */
+static inline bool observation_is_sensible(const struct space *space,
+                                           const double value[SPACE_DIMENSIONS])
+{
+    /* Written so that a NaN fails. */
+    for (int axis = 0; axis < SPACE_DIMENSIONS; axis++)
+        if (!(fabs(value[axis]) <= space->largest))
+            return false;
+    return true;
+}
 
 #endif

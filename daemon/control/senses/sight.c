@@ -10,12 +10,6 @@ void sight_init(struct sight *sight, const struct config *config)
     sight->newest = INT64_MIN;
 }
 
-void sight_forget(struct sight *sight)
-{
-    sight->count = 0;
-    sight->newest_seen = false;
-}
-
 bool sight_observe(struct sight *sight, const struct observation *marker,
                    const struct history *history)
 {
@@ -101,7 +95,7 @@ static double joint_spread(const struct sight *sight, int n, int joint)
         least = fmin(least, value);
         greatest = fmax(greatest, value);
     }
-    return (greatest - least) * sight->config->pixels_per_radian;
+    return (greatest - least) * sight->config->eyes_pixels_per_radian;
 }
 
 int sight_pair_frames(const struct config *config)

@@ -77,7 +77,4 @@ void sight_position(const struct sight *sight, const double *q, double x[SPACE_D
  * n is 1 .. the frames seen in a row. */
 void sight_pair(const struct sight *sight, int n, double *q, double *x, int64_t *utime);
 
-/* Forgets all frames: what they showed belongs to another time. */
-void sight_forget(struct sight *sight);
-
 #endif

@@ -1,6 +1,7 @@
 #include "trial.h"
 
 #include "common/bus/open.h"
+#include "daemon/config/load.h"
 
 #include <stdio.h>
 #include <stdlib.h>

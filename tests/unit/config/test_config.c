@@ -1,4 +1,6 @@
 /* The shipped configuration, and what is refused although each option alone is in range. */
+#include "daemon/config/load.h"
+#include "daemon/config/table.h"
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
 
@@ -29,7 +31,7 @@ START_TEST(the_shipped_configuration_is_the_paper_s_robot)
     ck_assert_double_eq_tol(elbow.min, -90 * M_PI / 180, 1e-12);
     ck_assert_double_eq_tol(elbow.max, -5 * M_PI / 180, 1e-12);
     ck_assert_double_eq_tol(pitch.min, -10 * M_PI / 180, 1e-12);
-    ck_assert_double_eq(pitch.velocity, config.head_velocity);
+    ck_assert_double_eq(pitch.velocity, config.motion_head_velocity);
     ck_assert_double_eq(elbow.safety_velocity, config.safety_arm_velocity);
 }
 END_TEST

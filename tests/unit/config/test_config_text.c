@@ -1,4 +1,5 @@
 /* A configuration as text gives the same configuration, whatever its numbers are. */
+#include "daemon/config/load.h"
 #include "daemon/config/text.h"
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"

@@ -1,12 +1,12 @@
 #include "fixture.h"
 
 #include "common/base/arena.h"
+#include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 static struct config load(const char *const *names, int n_names, const char *const *overrides,
                           int n_overrides)
@@ -49,22 +49,20 @@ struct config fixture_learner_config(const char *learner)
     return fixture_overlaid_config("kobian.yaml", learner);
 }
 
-struct tick *fixture_tick(const struct config *config, struct arena **arena)
+struct tick *fixture_tick_of(const struct tick_settings *settings, struct arena **arena)
 {
     char error[256] = "";
     struct tick *tick;
 
-    *arena = arena_create(tick_memory(config));
-    tick = tick_create(config, *arena, error, sizeof error);
+    *arena = arena_create(tick_memory(settings->config));
+    tick = tick_create(settings, *arena, error, sizeof error);
     ck_assert_msg(tick != NULL, "%s", error);
     return tick;
 }
 
-struct random_state fixture_random(const char *test)
+struct tick *fixture_tick(const struct config *config, struct arena **arena)
 {
-    const char *given = getenv("REACH_TEST_SEED");
-    long long seed = given ? atoll(given) : (long long)time(NULL);
+    const struct tick_settings settings = {.config = config, .model = model_port_none()};
 
-    printf("%s: REACH_TEST_SEED=%lld\n", test, seed);
-    return random_seed(seed);
+    return fixture_tick_of(&settings, arena);
 }

@@ -2,13 +2,14 @@
 #ifndef TESTS_UNIT_CONTROL_FIXTURE_H
 #define TESTS_UNIT_CONTROL_FIXTURE_H
 
-#include "common/base/random.h"
 #include "daemon/config/config.h"
+#include "tests/unit/seed.h"
 
 #include <stdint.h>
 
 struct arena;
 struct tick;
+struct tick_settings;
 
 /* etc/kobian.yaml with overrides "name=value"; ends the test with the reason when it is bad. */
 struct config fixture_config(const char *const *overrides, int n_overrides);
@@ -22,10 +23,10 @@ struct config fixture_learner_config(const char *learner);
 /* A robot's file of etc with another over it. */
 struct config fixture_overlaid_config(const char *robot, const char *overlay);
 
-/* A control step that knows nothing yet, in an arena that the test destroys. */
+/* A control step that knows nothing yet and keeps nothing, in an arena that the test destroys. */
 struct tick *fixture_tick(const struct config *config, struct arena **arena);
 
-/* The seed of randomised tests: $REACH_TEST_SEED, else the time; it is printed. */
-struct random_state fixture_random(const char *test);
+/* Likewise, as the settings say. */
+struct tick *fixture_tick_of(const struct tick_settings *settings, struct arena **arena);
 
 #endif

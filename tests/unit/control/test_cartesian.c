@@ -13,7 +13,7 @@ static void begin(void)
     world_step();
 }
 
-static void run(reach_request_t request)
+static void run_request(reach_request_t request)
 {
     ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
     world_finish(20000);
@@ -21,7 +21,7 @@ static void run(reach_request_t request)
 
 static void babble(int count, int64_t seed)
 {
-    run((reach_request_t){
+    run_request((reach_request_t){
         .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = seed, .learn = 1});
 }
 
@@ -63,7 +63,7 @@ static double worst_reach(bool learn)
         reach_request_t request = {
             .kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 4, .learn = learn};
         place_at(shares[i], request.target[0]);
-        run(request);
+        run_request(request);
         worst = fmax(worst, error_to(request.target[0]));
     }
     return worst;

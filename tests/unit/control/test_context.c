@@ -7,23 +7,23 @@
 static const double scale[] = {0.1, 0.1, 40};
 
 static struct context context;
-static struct selection selection;
+static struct estimate estimate;
 
 static void begin(void)
 {
     context_init(&context);
-    select_init(&selection, 2, 3, scale);
+    estimate_init(&estimate, 2, 3, scale);
 }
 
 /* Follows an expert whose solution has this value (rad) for some ticks. */
 static void follow(int expert, double value, int ticks)
 {
-    selection.prediction.n_solutions = 1;
-    selection.solution = 0;
-    selection.prediction.solution[0].principal = expert;
-    selection.prediction.solution[0].value[0] = value;
+    estimate.prediction.n_solutions = 1;
+    estimate.solution = 0;
+    estimate.prediction.solution[0].principal = expert;
+    estimate.prediction.solution[0].value[0] = value;
     for (int n = 0; n < ticks; n++)
-        context_follow(&context, &selection);
+        context_follow(&context, &estimate);
 }
 
 static void expect(int current, int count)
@@ -36,7 +36,7 @@ START_TEST(nothing_followed_is_no_context)
 {
     begin();
     for (int n = 0; n < 100; n++)
-        context_follow(&context, &selection);
+        context_follow(&context, &estimate);
     expect(0, 0);
 }
 END_TEST

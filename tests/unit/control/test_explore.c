@@ -39,7 +39,7 @@ static void begin(const char *name, double noise)
     world_step();
 }
 
-static void run(reach_request_t request, int most_ticks)
+static void run_request(reach_request_t request, int most_ticks)
 {
     ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
     world_finish(most_ticks);
@@ -50,7 +50,7 @@ static void explore(int count, int64_t seed)
     reach_request_t request = {
         .kind = REACH_REQUEST_T_EXPLORE, .count = count, .seed = seed, .learn = 1};
 
-    run(request, 10 * count);
+    run_request(request, 10 * count);
     ck_assert_int_eq(world.outputs.status.samples, count);
 }
 
@@ -75,7 +75,7 @@ static double reached(int n, const double middle[3], const double spread[3], dou
         for (int axis = 0; axis < 3; axis++)
             request.target[0][axis] =
                 middle[axis] + random_uniform(&random, -spread[axis], spread[axis]);
-        run(request, 1000);
+        run_request(request, 1000);
         now(seen);
         for (int axis = 0; axis < 3; axis++)
             sum += pow(seen[axis] - request.target[0][axis], 2);
@@ -113,7 +113,8 @@ START_TEST(it_goes_on_with_a_tool)
     now(middle);
     explore(1500, 3);
     world.robot.tool = 0.28;
-    run((reach_request_t){.kind = REACH_REQUEST_T_EXPLORE, .count = 1500, .seed = 4, .learn = 1},
+    run_request(
+        (reach_request_t){.kind = REACH_REQUEST_T_EXPLORE, .count = 1500, .seed = 4, .learn = 1},
         15000);
     ck_assert_int_eq(world.outputs.status.contexts, 2);
     middle[0] += 0.05;

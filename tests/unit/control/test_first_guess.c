@@ -1,6 +1,8 @@
 /* Whether the joints that the model has for a far target (inverse prediction) help the arm there,
  * on a robot without bodies: places drawn from the whole joint range, few samples and enough of
  * them. Prints what it measures; docs/daemon.md says what follows. */
+#include "daemon/control/behaviours/helpers.h"
+#include "daemon/control/behaviours/targets.h"
 #include "daemon/control/tick_private.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
@@ -27,31 +29,31 @@ static double guess[MAX_JOINTS]; /* rad */
 static bool guessed;
 
 /* The task position that brings what is seen to `target`. */
-static void wanted(const struct control *control, const double *target, double *x)
+static void wanted(const struct senses *senses, const double *target, double *x)
 {
     double error[SPACE_DIMENSIONS];
 
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        error[row] = target[row] - control->sight->carried[row];
-    space_to_task(&control->config->space, error, x);
+        error[row] = target[row] - senses->sight->carried[row];
+    space_to_task(&senses->config->space, error, x);
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        x[row] += select_value(control->selection)[row];
+        x[row] += estimate_value(senses->estimate)[row];
 }
 
 /* The nearest of the joints that the model knows for the target, within their limits. */
-static void make_guess(const struct control *control, const double *target)
+static void make_guess(const struct senses *senses, const double *target)
 {
     static struct learner_inverse inverse; /* too large for the stack */
-    const struct config *config = control->config;
+    const struct config *config = senses->config;
     double x[SPACE_DIMENSIONS], least = INFINITY;
 
-    wanted(control, target, x);
+    wanted(senses, target, x);
     guessed = learner_predict_inverse(world.tick->learner, x, &inverse) > 0;
     for (int k = 0; k < inverse.n_solutions; k++) {
         const double *z = inverse.solution[k].z;
         double distance = 0;
         for (int i = 0; i < config_arm_joints(config); i++)
-            distance += pow(z[i] - control->q[i], 2);
+            distance += pow(z[i] - senses->q[i], 2);
         if (distance >= least)
             continue;
         least = distance;
@@ -60,47 +62,50 @@ static void make_guess(const struct control *control, const double *target)
     }
 }
 
-static bool is_far(const struct control *control, const double *target)
+static bool is_far(const struct senses *senses, const double *target)
 {
-    const struct space *space = &control->config->space;
+    const struct space *space = &senses->config->space;
     double sum = 0;
 
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
         sum += pow(
-            space->unit[row] * (target[row] - control->sight->carried[row]) / space->scale[row], 2);
+            space->unit[row] * (target[row] - senses->sight->carried[row]) / space->scale[row], 2);
     return sqrt(sum) > far_off;
 }
 
 /* What is made of the guess instead of what reaching wants. */
-static void turn_to_guess(struct targets *targets, struct control *control, const double *target)
+static void turn_to_guess(struct targets *targets, const struct senses *senses, struct wants *wants,
+                          const double *target)
 {
-    const struct config *config = control->config;
+    const struct config *config = senses->config;
     double velocity[SPACE_DIMENSIONS];
 
-    if (use == DRIVE && is_far(control, target)) {
+    if (use == DRIVE && is_far(senses, target)) {
         for (int i = 0; i < config_arm_joints(config); i++)
-            control->velocity[i] = config->task_gain * (guess[i] - control->q[i]);
-        memcpy(targets->setpoint, control->sight->carried, sizeof targets->setpoint);
+            wants->velocity[i] = config->task_gain * (guess[i] - senses->q[i]);
+        memcpy(targets->setpoint, senses->sight->carried, sizeof targets->setpoint);
     } else if (use == POSTURE) {
-        control_approach(control, targets->setpoint, config->task_gain, velocity);
-        control_task_velocity_by(control, velocity, guess, config->secondary_gain);
+        control_approach(senses, wants, targets->setpoint, config->task_gain, velocity);
+        control_task_velocity_by(senses, wants, velocity, guess, config->task_secondary_gain);
     }
 }
 
-static bool guessing_step(struct behaviour *behaviour, struct control *control)
+static bool guessing_step(struct behaviour *behaviour, const struct senses *senses,
+                          struct wants *wants)
 {
-    struct targets *targets = &behaviour->targets;
+    struct targets *targets = behaviour_state(behaviour); /* reaching has them first */
     int64_t deadline = targets->deadline;
+    const struct behaviour_ops *reaching = behaviour_find(behaviour_table, REACH_REQUEST_T_REACH);
 
-    if (!behaviour_reach.step(behaviour, control))
+    if (!reaching->step(behaviour, senses, wants))
         return false;
     if (behaviour->progress.phase != REACH_STATUS_T_TRACK)
         return true;
     const double *target = targets->target[behaviour->progress.done];
     if (targets->deadline != deadline) /* it was just presented */
-        make_guess(control, target);
+        make_guess(senses, target);
     if (guessed)
-        turn_to_guess(targets, control, target);
+        turn_to_guess(targets, senses, wants, target);
     return true;
 }
 
@@ -131,7 +136,7 @@ static void draw_place(struct random_state *random, double place[3])
     memcpy(world.robot.q, kept, sizeof kept);
 }
 
-static void run(reach_request_t request, const struct behaviour_ops *ops)
+static void run_request(reach_request_t request, const struct behaviour_ops *ops)
 {
     ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
     if (ops)
@@ -146,14 +151,14 @@ static void reach(int samples, int seed, double *errors)
 
     world_begin(fixture_robot_config("icub.yaml"), 0.0005);
     world_step();
-    run(
+    run_request(
         (reach_request_t){
             .kind = REACH_REQUEST_T_BABBLE, .count = samples, .seed = seed, .learn = 1},
         NULL);
     for (int i = 0; i < PLACES; i++) {
         reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 5};
         draw_place(&random, request.target[0]);
-        run(request, &guessing);
+        run_request(request, &guessing);
         errors[i] = error_to(request.target[0]);
     }
     ck_assert_int_eq(world.outputs.status.gated, 0);

@@ -31,7 +31,7 @@ START_TEST(the_search_covers_the_range)
         head_search_step(&search, &config, now, q, velocity);
         for (int i = 0; i < HEAD_JOINTS; i++) {
             double low = config.head_min.value[i], high = config.head_max.value[i];
-            ck_assert(fabs(velocity[i]) <= config.search_velocity);
+            ck_assert(fabs(velocity[i]) <= config.head_search_velocity);
             q[i] += velocity[i] * 0.02;
             ck_assert(q[i] >= low && q[i] <= high);
         }

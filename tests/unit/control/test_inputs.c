@@ -1,4 +1,5 @@
 /* What may come in: each field of each message, one at a time, made absurd. */
+#include "daemon/control/behaviours/table.h"
 #include "daemon/control/inputs.h"
 #include "fixture.h"
 #include "tests/unit/suite.h"
@@ -66,33 +67,41 @@ START_TEST(a_bad_marker_is_refused)
 }
 END_TEST
 
+/* By the behaviour that it starts, or by the daemon. */
+static bool accepts(const reach_request_t *request)
+{
+    const struct behaviour_ops *ops = behaviour_find(behaviour_table, request->kind);
+
+    return ops ? ops->accepts(&config, request) : inputs_request_ok(request);
+}
+
 START_TEST(a_bad_request_is_refused)
 {
     reach_request_t request = {.kind = REACH_REQUEST_T_BABBLE, .count = 10};
 
     config = fixture_config(NULL, 0);
 
-    ck_assert(inputs_request_ok(&config, &request));
+    ck_assert(accepts(&request));
     request.count = 0;
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
     request = (reach_request_t){.kind = REACH_REQUEST_T_REACH, .n_targets = 32, .period = 1};
-    ck_assert(inputs_request_ok(&config, &request));
+    ck_assert(accepts(&request));
     for (int n = -2; n < 1; n++) {
         request.n_targets = n;
-        ck_assert(!inputs_request_ok(&config, &request));
+        ck_assert(!accepts(&request));
     }
     request.n_targets = 33;
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
     request.n_targets = 32;
     request.target[31][2] = NAN;
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
     request.target[31][2] = 0;
     request.period = NAN;
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
     request = (reach_request_t){.kind = 99};
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
     request = (reach_request_t){.kind = REACH_REQUEST_T_SAVE, .count = -1};
-    ck_assert(!inputs_request_ok(&config, &request));
+    ck_assert(!accepts(&request));
 }
 END_TEST
 

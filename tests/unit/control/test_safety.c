@@ -117,7 +117,7 @@ START_TEST(no_wish_passes_a_limit_when_the_loop_stands_still)
     struct random_state random = fixture_random("test_safety");
     struct safety safety;
     double q[MAX_JOINTS], velocity[MAX_JOINTS], before[MAX_JOINTS] = {0};
-    int still = (int)(config.reaction / config.period + 0.5);
+    int still = (int)(config.safety_reaction / config.period + 0.5);
 
     safety_init(&safety, &config);
     for (int i = 0; i < 6; i++)

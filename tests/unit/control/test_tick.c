@@ -190,14 +190,14 @@ START_TEST(a_new_configuration_holds_from_its_tick_on)
     begin();
     world_tick(true);
     ask((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 100});
-    ck_assert_double_eq_tol(fastest(500), world.config.arm_velocity, 1e-9);
+    ck_assert_double_eq_tol(fastest(500), world.config.motion_arm_velocity, 1e-9);
     slower = world.config;
-    slower.arm_velocity = 0.1 * world.config.arm_velocity;
+    slower.motion_arm_velocity = 0.1 * world.config.motion_arm_velocity;
     world.inputs.config = &slower;
     world_tick(true);
     world.inputs.config = NULL;
     fastest(20); /* slows down */
-    ck_assert_double_eq_tol(fastest(500), slower.arm_velocity, 1e-9);
+    ck_assert_double_eq_tol(fastest(500), slower.motion_arm_velocity, 1e-9);
     world_end();
 }
 END_TEST

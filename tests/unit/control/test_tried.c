@@ -61,15 +61,13 @@ static int given_up(struct tick *tick, struct fake_robot *robot, int count)
 START_TEST(it_learns_where_to_babble)
 {
     struct config config = fixture_config(whole_range, 3);
-    struct arena *arena = arena_create(tick_memory(&config));
+    struct arena *arena;
+    struct tick *tick = fixture_tick(&config, &arena);
     struct fake_robot robot;
-    char error[256];
-    struct tick *tick = tick_create(&config, arena, error, sizeof error);
     int first, later;
 
-    ck_assert_msg(tick != NULL, "%s", error);
-    ck_assert_double_eq_tol(config.babble_max.value[3], config.arm_max.value[3] - config.margin,
-                            1e-12);
+    ck_assert_double_eq_tol(config.babble_max.value[3],
+                            config.arm_max.value[3] - config.motion_margin, 1e-12);
     fake_robot_init(&robot, &config);
     robot.q[0] = -1.1;
     robot.q[3] = -1.1;

@@ -23,7 +23,7 @@ static struct feature_map *create_map(const struct learner_config *config, struc
     ck_assert_ptr_nonnull(*arena);
     struct feature_map *map = feature_map_create(config, *arena);
     ck_assert_ptr_nonnull(map);
-    ck_assert_uint_eq(arena_used(*arena), arena_size(*arena));
+    ck_assert_uint_eq(arena_used(*arena), feature_map_memory(config));
     return map;
 }
 

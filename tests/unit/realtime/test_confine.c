@@ -24,7 +24,7 @@ static void *behave(void *user)
     *(int *)user = confine_thread(error, sizeof error);
     clock_nanosleep(CLOCK_MONOTONIC, 0, &moment, NULL);
     clock_gettime(CLOCK_MONOTONIC, &now);
-    realtime_page_faults();
+    thread_page_faults();
     sem_post(&posted);
     return NULL;
 }

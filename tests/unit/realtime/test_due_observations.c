@@ -10,7 +10,7 @@ static void add(int64_t utime)
     due_observations_add(&markers, &(struct observation){.utime = utime});
 }
 
-static int64_t take(int64_t due)
+static int64_t take_due(int64_t due)
 {
     struct observation marker = {0};
 
@@ -23,12 +23,12 @@ START_TEST(a_later_marker_does_not_stand_in_for_the_one_that_is_due)
     ck_assert(due_observations_ready(&markers, 0));
     add(66);
     ck_assert(!due_observations_ready(&markers, 33));
-    ck_assert_int_eq(take(33), 0);
+    ck_assert_int_eq(take_due(33), 0);
     add(33);
     ck_assert(due_observations_ready(&markers, 33));
-    ck_assert_int_eq(take(33), 33);
-    ck_assert_int_eq(take(33), 0); /* 66 is not due yet */
-    ck_assert_int_eq(take(66), 66);
+    ck_assert_int_eq(take_due(33), 33);
+    ck_assert_int_eq(take_due(33), 0); /* 66 is not due yet */
+    ck_assert_int_eq(take_due(66), 66);
 }
 END_TEST
 
@@ -37,9 +37,9 @@ START_TEST(repeats_are_ignored)
     due_observations_init(&markers);
     add(33);
     add(33);
-    ck_assert_int_eq(take(40), 33);
+    ck_assert_int_eq(take_due(40), 33);
     add(33);
-    ck_assert_int_eq(take(40), 0);
+    ck_assert_int_eq(take_due(40), 0);
     ck_assert(due_observations_ready(&markers, 33));
 }
 END_TEST
@@ -52,8 +52,8 @@ START_TEST(a_full_store_keeps_what_is_due_first)
     add(33);
     ck_assert(due_observations_ready(&markers, 33));
     for (int i = 1; i <= TICK_MAX_OBSERVATIONS; i++)
-        ck_assert_int_eq(take(INT64_MAX), 33 * i);
-    ck_assert_int_eq(take(INT64_MAX), 0);
+        ck_assert_int_eq(take_due(INT64_MAX), 33 * i);
+    ck_assert_int_eq(take_due(INT64_MAX), 0);
 }
 END_TEST
 
@@ -75,11 +75,11 @@ START_TEST(the_order_of_arrival_does_not_matter)
             add(order[i]);
             add(order[random_bits(&random) % (uint64_t)(i + 1)]);
         }
-        ck_assert_int_eq(take(66), 33);
-        ck_assert_int_eq(take(66), 66);
-        ck_assert_int_eq(take(66), 0);
-        ck_assert_int_eq(take(133), 99);
-        ck_assert_int_eq(take(133), 133);
+        ck_assert_int_eq(take_due(66), 33);
+        ck_assert_int_eq(take_due(66), 66);
+        ck_assert_int_eq(take_due(66), 0);
+        ck_assert_int_eq(take_due(133), 99);
+        ck_assert_int_eq(take_due(133), 133);
     }
 }
 END_TEST

@@ -1,5 +1,6 @@
 /* Whatever the loop tells the control step, by chance here, a replay of what was recorded repeats.
  */
+#include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
@@ -41,13 +42,11 @@ static void begin(void)
     const struct replay_settings settings = {.verify = true};
     static reach_config_t message;
     static unsigned char bytes[sizeof message + 8];
-    char error[256];
 
     config = fixture_config(overrides, 3);
-    arena = arena_create(tick_memory(&config));
-    tick = tick_create(&config, arena, error, sizeof error);
+    tick = fixture_tick(&config, &arena);
     replay = replay_create(&settings);
-    ck_assert(tick && replay);
+    ck_assert_ptr_nonnull(replay);
     fake_robot_init(&robot, &config);
     outgoing_init(&out, NULL, "");
     config_message(&config, &message);
@@ -67,7 +66,7 @@ static void hear_state(void)
 
     say("ROBOT_STATE", bytes, size);
     inputs.has_state = true;
-    inputs.state_checksum = incoming_checksum(bytes, (size_t)size);
+    inputs.state_checksum = checksum_crc32(bytes, (size_t)size);
     ck_assert(incoming_state(bytes, (size_t)size, &inputs.state));
 }
 
@@ -93,11 +92,11 @@ static void hear_request(reach_request_t request)
     int size = reach_request_t_encode(bytes, 0, sizeof bytes, &request);
 
     say("REACH_REQUEST", bytes, size);
-    inputs.request_checksum[inputs.n_requests] = incoming_checksum(bytes, (size_t)size);
+    inputs.request_checksum[inputs.n_requests] = checksum_crc32(bytes, (size_t)size);
     ck_assert(incoming_request(bytes, (size_t)size, &inputs.request[inputs.n_requests++]));
 }
 
-static void gather(int64_t number)
+static void gather_inputs(int64_t number)
 {
     memset(&inputs, 0, sizeof inputs);
     inputs.state_age = by_chance(0.02) ? random_uniform(&chance, 0, 0.2) : 0.003;
@@ -131,7 +130,7 @@ static void send(enum outgoing_kind kind, const void *message, size_t size)
 
 static void step(int64_t number)
 {
-    gather(number);
+    gather_inputs(number);
     tick_decide(tick, &inputs, robot.now, &outputs);
     if (by_chance(0.1)) /* as when there is seldom time to learn */
         tick_learn(tick);

@@ -1,7 +1,7 @@
 #include "store_lives.h"
 
 #include "common/program/log.h"
-#include "tests/unit/control/fixture.h"
+#include "tests/unit/seed.h"
 
 #include <check.h>
 

@@ -4,7 +4,6 @@
 #include "learner/store/model_file.h"
 #include "learner/store/store.h"
 #include "store_bench.h"
-#include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
 
 #include <stdio.h>

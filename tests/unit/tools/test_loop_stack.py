@@ -11,10 +11,10 @@ sys.path.insert(0, str(ROOT / "tools/dev"))
 import loop_stack
 
 GOOD = """graph: { title: "loop.c"
-node: { title: "daemon/realtime/loop.c:run" label: "run\\nloop.c:1:1\\n100 bytes (static)" }
+node: { title: "daemon/realtime/loop.c:run_loop" label: "run\\nloop.c:1:1\\n100 bytes (static)" }
 node: { title: "step" label: "step\\ntick.c:1:1\\n4000 bytes (static)" }
 node: { title: "memcpy" label: "memcpy\\n<built-in>" shape : ellipse }
-edge: { sourcename: "daemon/realtime/loop.c:run" targetname: "step" label: "loop.c:2:2" }
+edge: { sourcename: "daemon/realtime/loop.c:run_loop" targetname: "step" label: "loop.c:2:2" }
 edge: { sourcename: "step" targetname: "memcpy" label: "tick.c:2:2" }
 """
 
@@ -44,7 +44,8 @@ class LoopStack(unittest.TestCase):
 
     def test_recursion(self):
         self.assert_finds(
-            edge("step", "daemon/realtime/loop.c:run"), "recursion: .*run -> step -> .*run"
+            edge("step", "daemon/realtime/loop.c:run_loop"),
+            "recursion: .*run_loop -> step -> .*run_loop",
         )
 
     def test_allocation(self):

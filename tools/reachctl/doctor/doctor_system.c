@@ -37,7 +37,7 @@ static int in_child(int (*attempt)(void))
 
 static int take_priority(void)
 {
-    struct sched_param parameters = {.sched_priority = REALTIME_PRIORITY_WATCHDOG};
+    struct sched_param parameters = {.sched_priority = THREAD_PRIORITY_WATCHDOG};
 
     return sched_setscheduler(0, SCHED_FIFO, &parameters) ? errno : 0;
 }
@@ -67,12 +67,12 @@ static void check_real_time(struct findings *findings)
 
     if (failed == 0) {
         findings_add(findings, VERDICT_OK, "real time", "SCHED_FIFO, priority %d",
-                     REALTIME_PRIORITY_WATCHDOG);
+                     THREAD_PRIORITY_WATCHDOG);
         return;
     }
     findings_add(findings, VERDICT_FINDING, "real time", "SCHED_FIFO, priority %d: %s",
-                 REALTIME_PRIORITY_WATCHDOG, strerror(failed));
-    grant(findings, "rtprio", REALTIME_PRIORITY_WATCHDOG);
+                 THREAD_PRIORITY_WATCHDOG, strerror(failed));
+    grant(findings, "rtprio", THREAD_PRIORITY_WATCHDOG);
 }
 
 static void check_memory(struct findings *findings)

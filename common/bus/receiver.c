@@ -1,0 +1,32 @@
+#include "common/bus/receiver.h"
+
+#include "common/base/thread.h"
+#include "common/program/log.h"
+
+static const int poll_ms = 100; /* how soon the thread sees that it is to end */
+
+static void *receive(void *user)
+{
+    struct bus_receiver *receiver = user;
+
+    pthread_setname_np(pthread_self(), receiver->name);
+    while (!atomic_load_explicit(&receiver->ending, memory_order_relaxed))
+        if (lcm_handle_timeout(receiver->lcm, poll_ms) < 0)
+            log_error("the bus failed to receive");
+    return NULL;
+}
+
+int bus_receiver_start(struct bus_receiver *receiver, lcm_t *lcm, const char *name, int priority,
+                       char *error, size_t error_size)
+{
+    receiver->lcm = lcm;
+    receiver->name = name;
+    atomic_store_explicit(&receiver->ending, false, memory_order_relaxed);
+    return thread_start(&receiver->thread, priority, receive, receiver, error, error_size);
+}
+
+void bus_receiver_stop(struct bus_receiver *receiver)
+{
+    atomic_store_explicit(&receiver->ending, true, memory_order_relaxed);
+    pthread_join(receiver->thread, NULL);
+}

@@ -1,0 +1,55 @@
+/* What the control step wants of whoever keeps its model: a table of calls, so that the step knows
+ * neither a disk nor a replay. All calls are the loop thread's; none waits. */
+#ifndef REACH_DAEMON_CONTROL_MODEL_PORT_H
+#define REACH_DAEMON_CONTROL_MODEL_PORT_H
+
+#include "learner/learner.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What became of a save or a load. Values are those of trace_t.store_result. */
+enum model_result { MODEL_NOTHING, MODEL_DONE, MODEL_FAILED };
+
+/* What the newest poll has seen, for the trace: nothing else that the keeper does decides anything.
+ */
+struct model_moment {
+    enum model_result result;
+    bool ready;     /* a save or load could begin then */
+    uint64_t model; /* hash of what the learner was given whole; 0 = nothing */
+};
+
+/* For the status. */
+struct model_report {
+    int64_t stored; /* samples of the model's life that are safe; 0 = none of this model */
+    bool storing;   /* what is learned is kept */
+    int64_t waits;  /* times that learning waited for room */
+};
+
+struct model_port_ops {
+    /* A sample that is about to be learned. Returns false when there is no room for it: it must
+     * then not be learned yet, so that what is learned and what is kept never differ. */
+    bool (*note)(void *context, const double *z, const double *x);
+    /* Whether `note` would return false. */
+    bool (*full)(const void *context);
+    /* Whether a save or a load is being worked on. */
+    bool (*works)(const void *context);
+    /* Start saving or loading. Return false when that could not begin at the newest poll. */
+    bool (*begin_save)(void *context, int number);
+    bool (*begin_load)(void *context, int number);
+    /* Every tick: what became of it. A model that was read takes the place of *learner here,
+     * between two ticks. */
+    enum model_result (*poll)(void *context, struct learner **learner);
+    struct model_moment (*moment)(const void *context);
+    struct model_report (*report)(const void *context);
+};
+
+struct model_port {
+    const struct model_port_ops *ops;
+    void *context; /* the keeper's */
+};
+
+/* Of a model that lives in memory alone: there is always room, and nothing to save or load. */
+struct model_port model_port_none(void);
+
+#endif

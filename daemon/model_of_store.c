@@ -1,0 +1,82 @@
+#include "daemon/model_of_store.h"
+
+#include <assert.h>
+
+static_assert((int)MODEL_NOTHING == (int)MODEL_STORE_NOTHING &&
+                  (int)MODEL_DONE == (int)MODEL_STORE_DONE &&
+                  (int)MODEL_FAILED == (int)MODEL_STORE_FAILED,
+              "results are handed on as they are");
+
+struct model_store_settings model_of_store_settings(const struct config *config)
+{
+    return (struct model_store_settings){
+        .directory = config->model_directory,
+        .automatic = config->model_automatic,
+        .snapshot_samples = config->model_snapshot,
+        .sync_us = (int64_t)(config->model_sync * 1e6),
+        .keep = config->model_keep,
+        .learner = config_learner(config),
+    };
+}
+
+static bool store_note(void *context, const double *z, const double *x)
+{
+    return model_store_note(context, z, x);
+}
+
+static bool store_full(const void *context)
+{
+    return model_store_full(context);
+}
+
+static bool store_works(const void *context)
+{
+    return model_store_works(context);
+}
+
+static bool store_begin_save(void *context, int number)
+{
+    return model_store_begin_save(context, number);
+}
+
+static bool store_begin_load(void *context, int number)
+{
+    return model_store_begin_load(context, number);
+}
+
+static enum model_result store_poll(void *context, struct learner **learner)
+{
+    return (enum model_result)model_store_poll(context, learner);
+}
+
+static struct model_moment store_moment(const void *context)
+{
+    const struct model_store_moment moment = model_store_moment(context);
+
+    return (struct model_moment){
+        .result = (enum model_result)moment.result, .ready = moment.ready, .model = moment.model};
+}
+
+static struct model_report store_report(const void *context)
+{
+    const struct model_store_report report = model_store_report(context);
+
+    return (struct model_report){
+        .stored = report.stored, .storing = report.storing, .waits = report.waits};
+}
+
+static const struct model_port_ops ops = {
+    .note = store_note,
+    .full = store_full,
+    .works = store_works,
+    .begin_save = store_begin_save,
+    .begin_load = store_begin_load,
+    .poll = store_poll,
+    .moment = store_moment,
+    .report = store_report,
+};
+
+struct model_port model_of_store(struct model_store *store)
+{
+    return (struct model_port){&ops, store};
+}

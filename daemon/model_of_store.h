@@ -1,0 +1,16 @@
+/* The model store of learner/, as the keeper of the control step's model: the one place that knows
+ * both. */
+#ifndef REACH_DAEMON_MODEL_OF_STORE_H
+#define REACH_DAEMON_MODEL_OF_STORE_H
+
+#include "daemon/config/config.h"
+#include "daemon/control/model_port.h"
+#include "learner/store/store.h"
+
+/* The model.* options, for the store. Points into `config`. */
+struct model_store_settings model_of_store_settings(const struct config *config);
+
+/* `store` stays the caller's. */
+struct model_port model_of_store(struct model_store *store);
+
+#endif
