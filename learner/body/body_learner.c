@@ -66,7 +66,7 @@ static enum learner_update_result update(void *self, const double *z, const doub
     if (learner->found)
         return contexts_learn(learner->contexts, z, x);
     kept_add(&learner->waiting, z, x);
-    return learner_imle_ops.update(learner->meanwhile, z, x);
+    return imle_learn(learner->meanwhile, z, x);
 }
 
 /* The strongest first. */
@@ -88,7 +88,7 @@ static int predict(void *self, const double *z, struct learner_prediction *predi
     double all = 0.0;
 
     if (!learner->found)
-        return learner_imle_ops.predict(learner->meanwhile, z, prediction);
+        return imle_predict(learner->meanwhile, z, prediction);
     chain_at(&learner->body.chain, z, &pose);
     design_rows(&contexts->design, &learner->body, &pose, contexts->rows);
     for (int j = 0; j < contexts->n; j++)
@@ -111,7 +111,7 @@ static int predict_single(void *self, const double *z, struct learner_solution *
     int slopes = learner->config.n_inputs * BODY_OUTPUTS;
 
     if (!learner->found)
-        return learner_imle_ops.predict_single(learner->meanwhile, z, mean);
+        return imle_predict_single(learner->meanwhile, z, mean);
     if (predict(self, z, &prediction) == 0)
         return 0;
     *mean = (struct learner_solution){.principal = prediction.solution[0].principal, .weight = 1.0};
@@ -136,7 +136,7 @@ static int experts(const void *self)
 {
     const struct body_learner *learner = self;
 
-    return learner->found ? learner->contexts->n : learner_imle_ops.experts(learner->meanwhile);
+    return learner->found ? learner->contexts->n : learner->meanwhile->state.M;
 }
 
 static int give_body(void *self, const struct body *body, char *err, size_t err_size)

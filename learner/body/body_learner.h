@@ -4,6 +4,7 @@
 #define REACH_LEARNER_BODY_BODY_LEARNER_H
 
 #include "learner/body/contexts.h"
+#include "learner/imle/imle.h"
 #include "learner/kind.h"
 
 #ifdef __cplusplus
@@ -15,7 +16,7 @@ enum { BODY_WAITING = 512 };
 
 struct body_learner {
     struct learner_config config;
-    void *meanwhile; /* learner_imle_ops: what answers until there is a body */
+    struct imle *meanwhile; /* what answers until there is a body */
     bool found;
     struct body body;
     struct contexts *contexts;

@@ -81,7 +81,7 @@ int body_predict_inverse(void *self, const double *x, struct learner_inverse *in
     struct learner_solution solution;
 
     if (!learner->found)
-        return learner_imle_ops.predict_inverse(learner->meanwhile, x, inverse);
+        return imle_predict_inverse(learner->meanwhile, x, inverse);
     for (int j = 0; j < learner->contexts->n; j++) {
         const struct context *context = &learner->contexts->context[j];
         struct learner_inverse_solution *out = &inverse->solution[inverse->n_solutions];

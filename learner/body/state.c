@@ -73,7 +73,7 @@ void body_save(const void *self, unsigned char *buffer)
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
     double head[3] = {learner->found, learner->contexts->n,
-                      learner_imle_ops.experts(learner->meanwhile)};
+                      learner->meanwhile->state.M};
     double numbers[BODY_NUMBERS];
 
     write_numbers(&writer, 3, head);

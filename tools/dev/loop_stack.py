@@ -56,7 +56,9 @@ CALLS_BY_POINTER = {
 }
 # Whoever else calls by pointer within the learner does so through these.
 LEARNER_TABLES = ("kernels", "feature_map_ops")
-LEARNER_SOURCE = re.compile(r"learner/(imle|lwpr|features)/|imle|whitener|feature_map|lwpr")
+LEARNER_SOURCE = re.compile(
+    r"learner/(body|imle|lwpr|features)/|imle|whitener|feature_map|lwpr|contexts_|tied_"
+)
 # Eigen takes scratch matrices from the stack, at most 16 x 16 doubles each here, and would take
 # larger ones from the heap; that it never does is seen by tests/system/test_loop_promises.py.
 EIGEN_SCRATCH = 16 * 1024
