@@ -106,25 +106,38 @@ bool body_output(const struct body *body, const double *place, double *x, double
     return usable(by_place, 9) && usable(x, BODY_OUTPUTS);
 }
 
+/* spread += slope L for the rows from i on of L, two at a time: spread is read and written half as
+ * often. */
+static void add_rows(int n, int i, const double *root, const double *slope,
+                     double (*spread)[BODY_MAX_UNKNOWNS])
+{
+    const double *row = root + (size_t)i * ((size_t)i + 1) / 2;
+    const double *next = row + i + 1;
+
+    for (int r = 0; r < 3; r++) {
+        double s = slope[r * n + i];
+        double t = slope[r * n + i + 1];
+        for (int k = 0; k <= i; k++)
+            spread[r][k] += s * row[k] + t * next[k];
+        spread[r][i + 1] += t * next[i + 1];
+    }
+}
+
 /* covariance += (slope L)(slope L)' for slope 3 x n. */
 static void add_spread(int n, const double *root, const double *slope, double *covariance)
 {
     double spread[3][BODY_MAX_UNKNOWNS] = {{0}};
 
-    for (int i = 0; i < n; i++) {
-        const double *row = root + (size_t)i * ((size_t)i + 1) / 2;
-        for (int r = 0; r < 3; r++) {
-            double s = slope[r * n + i];
-            for (int k = 0; k <= i; k++)
-                spread[r][k] += s * row[k];
-        }
-    }
+    for (int i = 0; i + 1 < n; i += 2) /* n is even */
+        add_rows(n, i, root, slope, spread);
     for (int r = 0; r < 3; r++)
-        for (int s = 0; s < 3; s++) {
+        for (int s = 0; s <= r; s++) {
             double sum = 0.0;
             for (int k = 0; k < n; k++)
                 sum += spread[r][k] * spread[s][k];
             covariance[3 * r + s] += sum;
+            if (s < r)
+                covariance[3 * s + r] += sum;
         }
 }
 

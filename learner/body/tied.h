@@ -28,9 +28,14 @@ struct tied {
 
 /* Scratch of one call, shared by all regressions. */
 struct tied_scratch {
-    double *y[3]; /* size[2] each: G times each row */
-    double *back; /* size[2] */
-    struct whitener_scratch add;
+    double *y;    /* 3 times size[2]: G times each row */
+    double *back; /* size[2]; and one more y: of the coefficient whose prior is topped up */
+    double *keep; /* of rotate_often(): four rows each, `stride` apart */
+    double *take;
+    double *grow;
+    double *sum;
+    size_t stride;
+    const struct tied *tested; /* whose y it is, of rows that tied_test() saw */
 };
 
 /* Doubles that a regression keeps, and scratch takes. */

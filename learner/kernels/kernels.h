@@ -59,6 +59,20 @@ struct kernels {
     void (*rotate)(int n, int first, double *G, const double *keep, const double *take,
                    const double *grow, double *s);
 
+    /* The three that follow take the eight columns from the diagonal on as a vector: up to 8
+     * numbers behind G and v may be read, and behind G and back written with what they were. */
+
+    /* y = G v for three vectors at once: v and y are three rows of n numbers, `stride` apart. */
+    void (*whiten_three)(int n, size_t stride, const double *G, const double *v, double *y);
+
+    /* As whiten(). */
+    void (*solve)(int n, const double *G, const double *v, double *y, double *back);
+
+    /* rotate() of all rows, `turns` times (3 or 4) in one pass: keep, take, grow and s are as many
+     * rows of numbers, `stride` apart, a multiple of 8 and at least n. */
+    void (*rotate_often)(int n, int turns, size_t stride, double *G, const double *keep,
+                         const double *take, const double *grow, double *s);
+
     /* Clustering of answers; n is a multiple of 8, and weights are zero where there is no answer.
      * deviation[a] = sum_i (x[i][a] - center[i])^2 weight[i][a], rows of x and weight `stride`
      * apart; nearest[a] falls to it where it is smaller. */

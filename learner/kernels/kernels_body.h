@@ -265,6 +265,8 @@ static void rotate(int n, int first, double *G, const double *keep, const double
         rotate_rows(1, row, row / LANES * LANES, G, keep, take, grow, s);
 }
 
+#include "learner/kernels/kernels_three.h"
+
 static void deviations(int n, int n_outputs, size_t stride, const double *restrict x,
                        const double *restrict weight, const double *restrict center,
                        double *restrict deviation, double *restrict nearest)
@@ -324,6 +326,9 @@ const struct kernels KERNELS_TABLE = {
     .bounds = bounds,
     .whiten = whiten,
     .rotate = rotate,
+    .whiten_three = whiten_three,
+    .solve = solve,
+    .rotate_often = rotate_often,
     .deviations = deviations,
     .memberships = memberships,
     .normalise = normalise,
