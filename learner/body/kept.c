@@ -48,14 +48,16 @@ static double *output(const struct kept *kept, int i)
     return kept->x + (size_t)i * (size_t)kept->n_outputs;
 }
 
-/* The largest difference of a joint. */
-static double apart(const struct kept *kept, int i, const double *z)
+/* The largest difference of a joint, or any that is not under `enough`. */
+static double apart(const struct kept *kept, int i, const double *z, double enough)
 {
     const double *other = input(kept, i);
     double most = 0.0;
 
-    for (int k = 0; k < kept->n_inputs; k++)
-        most = fmax(most, fabs(other[k] - z[k]));
+    for (int k = 0; k < kept->n_inputs && most < enough; k++) {
+        double one = fabs(other[k] - z[k]);
+        most = one > most ? one : most;
+    }
     return most;
 }
 
@@ -65,7 +67,7 @@ int kept_nearest(const struct kept *kept, const double *z)
     int nearest = -1;
 
     for (int i = 0; i < kept->n; i++) {
-        double distance = apart(kept, i, z);
+        double distance = apart(kept, i, z, least);
         if (distance < least) {
             least = distance;
             nearest = i;
@@ -118,19 +120,35 @@ static int any_of(const struct kept *kept)
     return (int)(random_bits(&random) % (uint64_t)kept->n);
 }
 
+/* Whether z may be kept: all that are near it are old. They go, but for one whose place it takes;
+ * *place is -1 when there is none. */
+static bool replaces(struct kept *kept, const double *z, int *place)
+{
+    *place = -1;
+    for (int i = 0; i < kept->n; i++)
+        if (apart(kept, i, z, kept->spacing) < kept->spacing) {
+            if (kept->offered - kept->at[i] < old)
+                return false;
+            *place = i;
+        }
+    for (int i = *place - 1; i >= 0; i--)
+        if (apart(kept, i, z, kept->spacing) < kept->spacing) {
+            take_out(kept, i);
+            --*place;
+        }
+    return true;
+}
+
 void kept_add(struct kept *kept, const double *z, const double *x)
 {
-    int nearest = kept_nearest(kept, z);
-    bool near = nearest >= 0 && apart(kept, nearest, z) < kept->spacing;
+    int place = -1;
 
     kept->offered += 1.0;
-    if (near && kept->offered - kept->at[nearest] < old)
+    if (!replaces(kept, z, &place))
         return;
-    if (near)
-        take_out(kept, nearest);
-    if (kept->n == kept->capacity) {
-        take_out(kept, any_of(kept));
+    if (place < 0 && kept->n == kept->capacity) {
+        place = any_of(kept);
         kept->spacing = fmin(kept->spacing * growth, most_spacing);
     }
-    put(kept, kept->n++, z, x);
+    put(kept, place >= 0 ? place : kept->n++, z, x);
 }

@@ -16,7 +16,7 @@ struct kept {
     int capacity;
     int n_inputs, n_outputs;
     double spacing; /* rad */
-    double *z;      /* n rows of n_inputs, the oldest first */
+    double *z;      /* n rows of n_inputs */
     double *x;      /* n rows of n_outputs */
     double *at;     /* n: how many had been offered before */
     double offered;
