@@ -234,7 +234,7 @@ void tied_learn(struct tied *tied, const struct design *design, const struct ker
     int P = design->size[2];
 
     for (int k = 0; k < DESIGN_SIZES; k++)
-        tied->evidence[k] = evidence_kept * tied->evidence[k] + h * fit->log_density[k];
+        tied->evidence[k] = evidence_kept * tied->evidence[k] + h * fit->log_evidence[k];
     for (int i = 0; i < P && keep < 1.0; i++)
         tied->b[i] *= keep;
     if (scratch->tested != tied)
