@@ -139,6 +139,13 @@ static int experts(const void *self)
     return learner->found ? learner->contexts->n : learner->meanwhile->state.M;
 }
 
+static int saved_experts(const void *self)
+{
+    const struct body_learner *learner = self;
+
+    return learner->meanwhile->state.M;
+}
+
 static int give_body(void *self, const struct body *body, char *err, size_t err_size)
 {
     struct body_learner *learner = self;
@@ -154,6 +161,7 @@ static int give_body(void *self, const struct body *body, char *err, size_t err_
         return -1;
     learner->body = *body;
     learner->found = true;
+    learner->meanwhile->state.M = 0; /* it has answered for the last time */
     contexts_stand_on(learner->contexts, &learner->body);
     for (int i = 0; first && i < waiting->n; i++)
         contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,
@@ -192,6 +200,7 @@ const struct learner_ops learner_body_ops = {
     .predict_single = predict_single,
     .predict_inverse = body_predict_inverse,
     .experts = experts,
+    .saved_experts = saved_experts,
     .state_size = body_state_size,
     .give_body = give_body,
     .body = body_of,

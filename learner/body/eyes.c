@@ -110,15 +110,18 @@ bool eyes_look_at(const struct eyes *eyes, const double *point, double *x)
         double left[3];
         double change[3];
         double largest = 0.0;
+        double finite = 0.0;
         if (!eyes_point(eyes, x, &view))
             return false;
         for (int i = 0; i < 3; i++)
             left[i] = point[i] - view.point[i];
         mat3_invert(view.by_x, inverse);
         mat3_apply(inverse, left, change);
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
             largest = fmax(largest, fabs(change[i]) / most[i]);
-        if (!(largest < 1e9))
+            finite += change[i]; /* fmax() leaves out what is no number */
+        }
+        if (!(fabs(finite) < 1e9 && largest < 1e9))
             return false;
         for (int i = 0; i < 3; i++)
             x[i] += change[i] / fmax(1.0, largest);

@@ -72,8 +72,7 @@ void body_save(const void *self, unsigned char *buffer)
 {
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
-    double head[3] = {learner->found, learner->contexts->n,
-                      learner->meanwhile->state.M};
+    double head[3] = {learner->found, learner->contexts->n, learner->meanwhile->state.M};
     double numbers[BODY_NUMBERS];
 
     write_numbers(&writer, 3, head);
@@ -84,6 +83,9 @@ void body_save(const void *self, unsigned char *buffer)
     write_kept(&writer, &learner->waiting);
     learner_imle_ops.save(learner->meanwhile, writer.to);
 }
+
+/* Counts stay whole numbers up to here; no robot offers as many samples. */
+static const double most_counted = 1e15;
 
 /* Reads twice: first only to see whether everything fits, then into its place. */
 struct reader {
@@ -111,10 +113,40 @@ static void read_numbers(struct reader *reader, size_t n, double *numbers)
     }
 }
 
+static void demand(struct reader *reader, bool right)
+{
+    reader->fits = reader->fits && right;
+}
+
 static int whole(struct reader *reader, double number, int least, int most)
 {
-    reader->fits = reader->fits && number >= least && number <= most;
+    demand(reader, number >= least && number <= most && number == (int)number);
     return reader->fits ? (int)number : least;
+}
+
+/* Numbers that a learner may have been given. */
+static void read_samples(struct reader *reader, size_t n, double *numbers)
+{
+    double number = 0.0;
+
+    for (size_t i = 0; i < n; i++) {
+        read_head(reader, 1, &number);
+        demand(reader, fabs(number) <= LEARNER_LARGEST_NUMBER);
+        if (reader->into_place)
+            numbers[i] = number;
+    }
+}
+
+static void read_times(struct reader *reader, int n, double offered, struct kept *kept)
+{
+    double at = 0.0;
+
+    for (int i = 0; i < kept->capacity; i++) {
+        read_head(reader, 1, &at);
+        demand(reader, i >= n || (at >= 0.0 && at <= offered));
+        if (reader->into_place)
+            kept->at[i] = at;
+    }
 }
 
 static void read_kept(struct reader *reader, struct kept *kept)
@@ -124,15 +156,15 @@ static void read_kept(struct reader *reader, struct kept *kept)
 
     read_head(reader, 3, head);
     int n = whole(reader, head[0], 0, kept->capacity);
-    reader->fits = reader->fits && head[1] > 0.0;
+    demand(reader, head[1] > 0.0 && head[2] >= n && head[2] < most_counted);
     if (reader->into_place) {
         kept->n = n;
         kept->spacing = head[1];
         kept->offered = head[2];
     }
-    read_numbers(reader, room * (size_t)kept->n_inputs, kept->z);
-    read_numbers(reader, room * (size_t)kept->n_outputs, kept->x);
-    read_numbers(reader, room, kept->at);
+    read_samples(reader, room * (size_t)kept->n_inputs, kept->z);
+    read_samples(reader, room * (size_t)kept->n_outputs, kept->x);
+    read_times(reader, n, head[2], kept);
 }
 
 static void read_whitener(struct reader *reader, int n, bool used, double *G)
@@ -141,7 +173,7 @@ static void read_whitener(struct reader *reader, int n, bool used, double *G)
         double diagonal = 0.0;
         read_numbers(reader, (size_t)i, G + whitener_row(i));
         read_head(reader, 1, &diagonal);
-        reader->fits = reader->fits && (!used || diagonal > 0.0);
+        demand(reader, !used || diagonal > 0.0);
         if (reader->into_place)
             G[whitener_row(i) + (size_t)i] = diagonal;
     }
@@ -156,7 +188,9 @@ static void read_context(struct reader *reader, const struct design *design, boo
     read_head(reader, 7, head);
     int turn = whole(reader, head[5], 0, design->size[2] - 1);
     int chosen = whole(reader, head[6], 0, DESIGN_SIZES - 1);
-    reader->fits = reader->fits && (!used || head[3] >= 1.0);
+    demand(reader, !used || (head[0] >= 0.0 && head[0] < most_counted && head[1] >= 0.0 &&
+                             head[1] <= 1.0 && head[2] >= 0.0 && head[2] < most_counted &&
+                             head[3] >= 1.0 && head[4] >= 0.0 && head[4] < most_counted));
     if (reader->into_place) {
         context->support = head[0];
         context->recent = head[1];
@@ -180,9 +214,8 @@ static void read_body(struct reader *reader, bool found, int n_joints, struct bo
 
     read_head(reader, BODY_NUMBERS, numbers);
     body_from_numbers(numbers, &other);
-    reader->fits =
-        reader->fits &&
-        (!found || (other.chain.n == n_joints && body_check(&other, ignored, sizeof ignored) == 0));
+    demand(reader, !found || (other.chain.n == n_joints &&
+                              body_check(&other, ignored, sizeof ignored) == 0));
     if (reader->into_place)
         *body = other;
 }
@@ -195,8 +228,8 @@ static int read_all(struct reader *reader, struct body_learner *learner)
 
     read_head(reader, 3, head);
     bool found = whole(reader, head[0], 0, 1) != 0;
-    int n = whole(reader, head[1], 0, contexts->most);
-    int meanwhile = whole(reader, head[2], 0, learner->config.capacity);
+    int n = whole(reader, head[1], 0, found ? contexts->most : 0);
+    int meanwhile = whole(reader, head[2], 0, found ? 0 : learner->config.capacity);
     read_body(reader, found, learner->config.n_inputs, &learner->body);
     if (reader->into_place) {
         learner->found = found;
