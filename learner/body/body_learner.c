@@ -69,14 +69,32 @@ static enum learner_update_result update(void *self, const double *z, const doub
     return imle_learn(learner->meanwhile, z, x);
 }
 
-/* The strongest first. */
-static void insert(struct learner_prediction *prediction, const struct learner_solution *solution)
+/* Among the strongest `most`, the strongest first. */
+static void insert(struct learner_prediction *prediction, int most,
+                   const struct learner_solution *solution)
 {
-    int at = prediction->n_solutions++;
+    int at = prediction->n_solutions;
 
+    if (at < most)
+        prediction->n_solutions++;
+    else if (prediction->solution[--at].weight >= solution->weight)
+        return;
     for (; at > 0 && prediction->solution[at - 1].weight < solution->weight; at--)
         prediction->solution[at] = prediction->solution[at - 1];
     prediction->solution[at] = *solution;
+}
+
+/* Weights of those that have answered are shares. */
+static void share(struct learner_prediction *prediction)
+{
+    double all = 0.0;
+
+    for (int s = 0; s < prediction->n_solutions; s++)
+        all += prediction->solution[s].weight;
+    for (int s = 0; s < prediction->n_solutions; s++) {
+        double *weight = &prediction->solution[s].weight;
+        *weight = all > 0.0 ? *weight / all : 1.0 / prediction->n_solutions;
+    }
 }
 
 static int predict(void *self, const double *z, struct learner_prediction *prediction)
@@ -85,21 +103,18 @@ static int predict(void *self, const double *z, struct learner_prediction *predi
     struct contexts *contexts = learner->contexts;
     struct learner_solution solution;
     struct chain_pose pose;
-    double all = 0.0;
 
     if (!learner->found)
         return imle_predict(learner->meanwhile, z, prediction);
     chain_at(&learner->body.chain, z, &pose);
     design_rows(&contexts->design, &learner->body, &pose, contexts->rows);
-    for (int j = 0; j < contexts->n; j++)
-        all += contexts->context[j].recent;
-    for (int j = 0; j < contexts->n && prediction->n_solutions < learner->config.n_solutions_max;
-         j++) {
+    for (int j = 0; j < contexts->n; j++) {
         if (!contexts_answer(contexts, j, z, &pose, &solution))
             continue;
-        solution.weight = all > 0.0 ? contexts->context[j].recent / all : 1.0;
-        insert(prediction, &solution);
+        solution.weight = contexts->context[j].recent;
+        insert(prediction, learner->config.n_solutions_max, &solution);
     }
+    share(prediction);
     return prediction->n_solutions;
 }
 
@@ -136,7 +151,10 @@ static int experts(const void *self)
 {
     const struct body_learner *learner = self;
 
-    return learner->found ? learner->contexts->n : learner->meanwhile->state.M;
+    if (!learner->found)
+        return learner->meanwhile->state.M;
+    return learner->contexts->n < learner->contexts->most ? learner->contexts->n
+                                                          : learner->contexts->most;
 }
 
 static int saved_experts(const void *self)

@@ -44,7 +44,7 @@ size_t contexts_memory(int n_joints)
     struct design design = design_of(n_joints);
     size_t P = (size_t)design.size[2];
     size_t numbers =
-        CONTEXTS_MAX * context_numbers(&design) + 6 * P + tied_scratch_numbers(&design);
+        CONTEXTS_ROOM * context_numbers(&design) + 6 * P + tied_scratch_numbers(&design);
 
     return arena_footprint(sizeof(struct contexts)) + arena_footprint(numbers * sizeof(double));
 }
@@ -55,7 +55,7 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
     struct design design = design_of(n_joints);
     size_t P = (size_t)design.size[2];
     size_t each = context_numbers(&design);
-    size_t numbers = CONTEXTS_MAX * each + 6 * P + tied_scratch_numbers(&design);
+    size_t numbers = CONTEXTS_ROOM * each + 6 * P + tied_scratch_numbers(&design);
     struct contexts *contexts = arena_alloc(arena, sizeof *contexts);
     double *room = arena_alloc(arena, numbers * sizeof(double));
 
@@ -64,13 +64,13 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
     contexts->design = design;
     contexts->kernels = kernels;
     contexts->most = most < CONTEXTS_MAX ? most : CONTEXTS_MAX;
-    for (size_t j = 0; j < CONTEXTS_MAX; j++) {
+    for (size_t j = 0; j < CONTEXTS_ROOM; j++) {
         struct context *context = &contexts->context[j];
         tied_place(&context->tied, &design, room + j * each);
         kept_place(&context->kept, CONTEXTS_KEPT, n_joints, BODY_OUTPUTS,
                    room + j * each + tied_numbers(&design));
     }
-    contexts->rows = room + CONTEXTS_MAX * each;
+    contexts->rows = room + CONTEXTS_ROOM * each;
     contexts->white = contexts->rows + 3 * P;
     tied_place_scratch(&contexts->scratch, &design, contexts->white + 3 * P);
     return contexts;
@@ -79,6 +79,17 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
 bool contexts_confirmed(const struct context *context)
 {
     return context->support >= confirmed;
+}
+
+/* Squares of joints farther off lose the digits of everything else. */
+static bool within_sense(const struct design *design, const struct body *body, const double *z)
+{
+    const double farthest = 300.0; /* of a joint's range */
+
+    for (int i = 0; i < design->n_joints; i++)
+        if (!(fabs(z[i] - body->chain.middle[i]) <= farthest * design->range[i]))
+            return false;
+    return true;
 }
 
 /* The sample as the regressions want it: rows and y in units of the noise, which is that of the
@@ -174,23 +185,34 @@ static void learn_in(struct contexts *contexts, int j, double h, const double *y
 static void remove_context(struct contexts *contexts, int j)
 {
     struct context gone = contexts->context[j];
+    size_t behind = (size_t)(contexts->n - j - 1);
 
-    memmove(&contexts->context[j], &contexts->context[j + 1],
-            (size_t)(contexts->n - j - 1) * sizeof gone);
+    memmove(&contexts->context[j], &contexts->context[j + 1], behind * sizeof gone);
+    memmove(&contexts->fit[j], &contexts->fit[j + 1], behind * sizeof contexts->fit[0]);
+    memmove(&contexts->h[j], &contexts->h[j + 1], behind * sizeof contexts->h[0]);
     contexts->n--;
     contexts->context[contexts->n] = gone; /* its room is used again */
 }
 
-/* Who goes when there is no room: the oldest on probation, or else the confirmed one that least of
- * the newest samples were of. */
-static int dispensable(const struct contexts *contexts, bool on_probation)
+int contexts_count_confirmed(const struct contexts *contexts)
+{
+    int count = 0;
+
+    for (int j = 0; j < contexts->n; j++)
+        count += contexts_confirmed(&contexts->context[j]);
+    return count;
+}
+
+/* Who goes when there is no room, beside `stays`: the oldest on probation, or the confirmed one
+ * that least of the newest samples were of. */
+static int dispensable(const struct contexts *contexts, bool on_probation, int stays)
 {
     int chosen = -1;
 
     for (int j = 0; j < contexts->n; j++) {
         const struct context *context = &contexts->context[j];
         const struct context *other = chosen < 0 ? NULL : &contexts->context[chosen];
-        if (contexts_confirmed(context) == on_probation)
+        if (j == stays || contexts_confirmed(context) == on_probation)
             continue;
         if (!other || (on_probation ? context->age > other->age : context->recent < other->recent))
             chosen = j;
@@ -198,22 +220,24 @@ static int dispensable(const struct contexts *contexts, bool on_probation)
     return chosen;
 }
 
-static void make_room(struct contexts *contexts)
+/* The newest is on probation, too. */
+static void make_room_for_newest(struct contexts *contexts)
 {
-    int on_probation = 0;
+    int on_probation = contexts->n - contexts_count_confirmed(contexts);
 
-    for (int j = 0; j < contexts->n; j++)
-        on_probation += !contexts_confirmed(&contexts->context[j]);
-    if (on_probation >= CONTEXTS_ON_PROBATION || (contexts->n == contexts->most && on_probation))
-        remove_context(contexts, dispensable(contexts, true));
-    else if (contexts->n == contexts->most)
-        remove_context(contexts, dispensable(contexts, false));
+    if (on_probation > CONTEXTS_ON_PROBATION || contexts->n > contexts->most + 1)
+        remove_context(contexts, dispensable(contexts, true, contexts->n - 1));
+}
+
+static void make_room_for_confirmed(struct contexts *contexts, int newest)
+{
+    while (contexts_count_confirmed(contexts) > contexts->most)
+        remove_context(contexts, dispensable(contexts, false, newest));
 }
 
 /* A new context that has learned the sample alone; false when no tip could be there. */
 static bool give_birth(struct contexts *contexts, const double *z, const double *x, const double *y)
 {
-    make_room(contexts);
     int j = contexts->n;
     struct context *context = &contexts->context[j];
     context->support = context->age = context->twin = 0.0;
@@ -228,11 +252,12 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     contexts->n++;
     learn_in(contexts, j, 1.0, y);
     kept_add(&context->kept, z, x);
+    make_room_for_newest(contexts);
     return true;
 }
 
-/* The newest sample was context `winner`'s. Who is not needed goes. */
-static void tidy(struct contexts *contexts, int winner)
+/* The newest sample was context `winner`'s. Who is not needed goes. Returns where the winner is. */
+static int tidy(struct contexts *contexts, int winner)
 {
     for (int j = contexts->n - 1; j >= 0; j--) {
         struct context *context = &contexts->context[j];
@@ -245,28 +270,17 @@ static void tidy(struct contexts *contexts, int winner)
         if (!late && !twin)
             continue;
         remove_context(contexts, j);
-        memmove(&contexts->fit[j], &contexts->fit[j + 1],
-                (size_t)(contexts->n - j) * sizeof contexts->fit[0]);
         winner -= winner > j;
     }
+    return winner;
 }
 
-enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
-                                          const double *x)
+/* What one of the contexts explains, which has most of it. */
+static void learn_known(struct contexts *contexts, const double *z, const double *x,
+                        const double *y)
 {
-    double y[BODY_OUTPUTS];
     int winner = 0;
 
-    if (!whiten_sample(contexts, z, x, y))
-        return LEARNER_OUTLIER;
-    if (!(weigh(contexts, y) <= own)) {
-        if (!give_birth(contexts, z, x, y))
-            return LEARNER_OUTLIER;
-        for (int j = 0; j < contexts->n; j++)
-            contexts->h[j] = 0.0;
-        tidy(contexts, contexts->n - 1);
-        return LEARNER_BORN;
-    }
     for (int j = 0; j < contexts->n; j++)
         if (contexts->h[j] > contexts->h[winner])
             winner = j;
@@ -274,8 +288,28 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
         if (contexts->h[j] > skipped)
             learn_in(contexts, j, contexts->h[j], y);
     kept_add(&contexts->context[winner].kept, z, x);
-    tidy(contexts, winner);
-    return LEARNER_UPDATED;
+    make_room_for_confirmed(contexts, tidy(contexts, winner));
+}
+
+enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
+                                          const double *x)
+{
+    double y[BODY_OUTPUTS];
+
+    if (!within_sense(&contexts->design, contexts->body, z))
+        return LEARNER_REFUSED;
+    if (!whiten_sample(contexts, z, x, y))
+        return LEARNER_OUTLIER;
+    if (weigh(contexts, y) <= own) {
+        learn_known(contexts, z, x, y);
+        return LEARNER_UPDATED;
+    }
+    if (!give_birth(contexts, z, x, y))
+        return LEARNER_OUTLIER;
+    for (int j = 0; j < contexts->n; j++)
+        contexts->h[j] = 0.0;
+    tidy(contexts, contexts->n - 1);
+    return LEARNER_BORN;
 }
 
 static void relearn(struct contexts *contexts, int j)
@@ -304,4 +338,5 @@ void contexts_stand_on(struct contexts *contexts, const struct body *body)
     design_init(&contexts->design, body);
     for (int j = 0; j < contexts->n; j++)
         relearn(contexts, j);
+    make_room_for_confirmed(contexts, -1);
 }

@@ -4,7 +4,8 @@
  * All contexts share one uniform density of inputs: a sample's responsibilities come from how well
  * each context predicts it, and from how much of the newest samples the context had. A sample that
  * no context explains makes a new one at once, on probation: it must be confirmed by others soon.
- */
+ * Where there is no room for one more it takes the place of a known one only when it is confirmed,
+ * so that a gross error costs none. */
 #ifndef REACH_LEARNER_BODY_CONTEXTS_H
 #define REACH_LEARNER_BODY_CONTEXTS_H
 
@@ -18,7 +19,13 @@
 extern "C" {
 #endif
 
-enum { CONTEXTS_MAX = LEARNER_MAX_SOLUTIONS, CONTEXTS_ON_PROBATION = 4, CONTEXTS_KEPT = 512 };
+enum {
+    CONTEXTS_MAX = LEARNER_MAX_SOLUTIONS,
+    CONTEXTS_ON_PROBATION = 4,
+    /* One on probation beside as many as there may be, and one that is being tried. */
+    CONTEXTS_ROOM = CONTEXTS_MAX + 2,
+    CONTEXTS_KEPT = 512,
+};
 
 struct context {
     double support; /* responsibility taken, all told */
@@ -34,18 +41,18 @@ struct contexts {
     const struct body *body;
     struct design design;
     const struct kernels *kernels;
-    int most; /* contexts, 1 .. CONTEXTS_MAX */
-    int n;
-    struct context context[CONTEXTS_MAX];
+    int most; /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
+    int n;    /* 0 .. most + 1 */
+    struct context context[CONTEXTS_ROOM];
 
     /* scratch of one call */
     double *rows;    /* Phi, 3 x size[2], in space */
     double *white;   /* the same in units of the noise */
     double doubt[9]; /* of the body, in units of the noise */
     struct tied_scratch scratch;
-    struct tied_fit fit[CONTEXTS_MAX];
-    double log_h[CONTEXTS_MAX];
-    double h[CONTEXTS_MAX];
+    struct tied_fit fit[CONTEXTS_ROOM];
+    double log_h[CONTEXTS_ROOM];
+    double h[CONTEXTS_ROOM];
 };
 
 /* Bytes that contexts_create takes from an arena, for a body of n_joints. */
@@ -65,6 +72,7 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
 
 /* Whether others than its first sample have confirmed a context. */
 bool contexts_confirmed(const struct context *context);
+int contexts_count_confirmed(const struct contexts *contexts);
 
 /* What context j says at z, whose pose is `pose` and whose rows are in contexts->rows: value,
  * variance, Jacobian. false when the eyes cannot look there. */

@@ -74,34 +74,51 @@ static void leave_variance(const struct body *body, const double *jacobian, doub
     }
 }
 
+/* The joints with which context j's tip is at x. false when none were found. */
+static bool reach_with(struct body_learner *learner, int j, const double *x,
+                       struct learner_inverse_solution *out)
+{
+    enum { MOST_STEPS = 20 };
+    const struct context *context = &learner->contexts->context[j];
+    int begin = kept_nearest_output(&context->kept, x, learner->body.noise);
+    double distance = INFINITY;
+    struct learner_solution solution;
+
+    if (begin < 0)
+        return false;
+    memcpy(out->z, context->kept.z + (ptrdiff_t)begin * context->kept.n_inputs,
+           (size_t)context->kept.n_inputs * sizeof(double));
+    for (int step = 0; step < MOST_STEPS; step++) {
+        distance = approach(learner, j, x, out->z, &solution);
+        if (!(distance > enough && distance < INFINITY))
+            break;
+    }
+    if (!(distance < INFINITY))
+        return false;
+    leave_variance(&learner->body, solution.jacobian, out->variance);
+    out->weight = context->recent;
+    out->principal = j;
+    return true;
+}
+
 int body_predict_inverse(void *self, const double *x, struct learner_inverse *inverse)
 {
     struct body_learner *learner = self;
-    enum { MOST_STEPS = 20 };
-    struct learner_solution solution;
+    struct learner_inverse_solution one;
 
     if (!learner->found)
         return imle_predict_inverse(learner->meanwhile, x, inverse);
     for (int j = 0; j < learner->contexts->n; j++) {
-        const struct context *context = &learner->contexts->context[j];
-        struct learner_inverse_solution *out = &inverse->solution[inverse->n_solutions];
-        int begin = kept_nearest_output(&context->kept, x, learner->body.noise);
-        double distance = INFINITY;
-        if (begin < 0)
+        if (!reach_with(learner, j, x, &one))
             continue;
-        memcpy(out->z, context->kept.z + (ptrdiff_t)begin * context->kept.n_inputs,
-               (size_t)context->kept.n_inputs * sizeof(double));
-        for (int step = 0; step < MOST_STEPS; step++) {
-            distance = approach(learner, j, x, out->z, &solution);
-            if (!(distance > enough && distance < INFINITY))
-                break;
-        }
-        if (!(distance < INFINITY))
+        int at = inverse->n_solutions;
+        if (at < LEARNER_MAX_SOLUTIONS)
+            inverse->n_solutions++;
+        else if (inverse->solution[--at].weight >= one.weight)
             continue;
-        leave_variance(&learner->body, solution.jacobian, out->variance);
-        out->weight = context->recent;
-        out->principal = j;
-        inverse->n_solutions++;
+        for (; at > 0 && inverse->solution[at - 1].weight < one.weight; at--)
+            inverse->solution[at] = inverse->solution[at - 1];
+        inverse->solution[at] = one;
     }
     return inverse->n_solutions;
 }

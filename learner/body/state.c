@@ -21,7 +21,7 @@ static size_t fixed_numbers(const struct body_learner *learner)
     size_t each = CONTEXT_NUMBERS + regression_numbers(&learner->contexts->design) +
                   kept_numbers(CONTEXTS_KEPT, (int)d, BODY_OUTPUTS);
 
-    return 3 + BODY_NUMBERS + CONTEXTS_MAX * each + 3 +
+    return 3 + BODY_NUMBERS + CONTEXTS_ROOM * each + 3 +
            kept_numbers(BODY_WAITING, (int)d, BODY_OUTPUTS);
 }
 
@@ -78,7 +78,7 @@ void body_save(const void *self, unsigned char *buffer)
     write_numbers(&writer, 3, head);
     body_to_numbers(&learner->body, numbers);
     write_numbers(&writer, BODY_NUMBERS, numbers);
-    for (int j = 0; j < CONTEXTS_MAX; j++)
+    for (int j = 0; j < CONTEXTS_ROOM; j++)
         write_context(&writer, &learner->contexts->design, &learner->contexts->context[j]);
     write_kept(&writer, &learner->waiting);
     learner_imle_ops.save(learner->meanwhile, writer.to);
@@ -179,7 +179,8 @@ static void read_whitener(struct reader *reader, int n, bool used, double *G)
     }
 }
 
-static void read_context(struct reader *reader, const struct design *design, bool used,
+/* Returns whether it is confirmed. */
+static bool read_context(struct reader *reader, const struct design *design, bool used,
                          struct context *context)
 {
     struct tied *tied = &context->tied;
@@ -204,6 +205,7 @@ static void read_context(struct reader *reader, const struct design *design, boo
     read_whitener(reader, design->size[2], used, tied->G);
     read_numbers(reader, (size_t)design->size[2], tied->b);
     read_kept(reader, &context->kept);
+    return used && contexts_confirmed(&(struct context){.support = head[0]});
 }
 
 static void read_body(struct reader *reader, bool found, int n_joints, struct body *body)
@@ -224,19 +226,21 @@ static void read_body(struct reader *reader, bool found, int n_joints, struct bo
 static int read_all(struct reader *reader, struct body_learner *learner)
 {
     struct contexts *contexts = learner->contexts;
+    int confirmed = 0;
     double head[3];
 
     read_head(reader, 3, head);
     bool found = whole(reader, head[0], 0, 1) != 0;
-    int n = whole(reader, head[1], 0, found ? contexts->most : 0);
+    int n = whole(reader, head[1], 0, found ? contexts->most + 1 : 0);
     int meanwhile = whole(reader, head[2], 0, found ? 0 : learner->config.capacity);
     read_body(reader, found, learner->config.n_inputs, &learner->body);
     if (reader->into_place) {
         learner->found = found;
         contexts->n = n;
     }
-    for (int j = 0; j < CONTEXTS_MAX; j++)
-        read_context(reader, &contexts->design, j < n, &contexts->context[j]);
+    for (int j = 0; j < CONTEXTS_ROOM; j++)
+        confirmed += read_context(reader, &contexts->design, j < n, &contexts->context[j]);
+    demand(reader, confirmed <= contexts->most);
     read_kept(reader, &learner->waiting);
     return meanwhile;
 }

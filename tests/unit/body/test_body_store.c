@@ -160,7 +160,7 @@ START_TEST(numbers_that_cannot_be_are_refused)
     for (size_t word = 0; word < HEAD; word++) { /* found, contexts, experts */
         expect_refused(learner, bytes, size, word, -1.0, before);
         expect_refused(learner, bytes, size, word, 0.5, before);
-        expect_refused(learner, bytes, size, word, 17.0, before);
+        expect_refused(learner, bytes, size, word, 18.0, before);
     }
     expect_refused(learner, bytes, size, 0, 0.0, before);            /* contexts without a body */
     expect_refused(learner, bytes, size, 2, 1.0, before);            /* both at once */
