@@ -183,7 +183,7 @@ struct learner_solution {
     /* d value / d z, row-major n_outputs x n_inputs, no padding. */
     double jacobian[LEARNER_MAX_OUTPUTS * LEARNER_MAX_INPUTS];
     int members;   /* experts that took part */
-    int principal; /* index of the one with the largest share */
+    int principal; /* number of the one with the largest share: its own as long as it lives */
 };
 
 struct learner_prediction {

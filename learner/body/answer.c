@@ -73,6 +73,6 @@ bool contexts_answer(struct contexts *contexts, int j, const double *z,
                                             by_place[3 * r + 2] * slope[2 * d + i];
     }
     solution->members = 1;
-    solution->principal = j;
+    solution->principal = (int)context->number;
     return true;
 }

@@ -240,6 +240,7 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
 {
     int j = contexts->n;
     struct context *context = &contexts->context[j];
+    context->number = fmod(contexts->births, CONTEXTS_NUMBERS);
     context->support = context->age = context->twin = 0.0;
     context->recent = 0.0;
     context->scale = 1.0;
@@ -250,6 +251,7 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     if (!(contexts->fit[j].distance[0] <= own))
         return false;
     contexts->n++;
+    contexts->births += 1.0;
     learn_in(contexts, j, 1.0, y);
     kept_add(&context->kept, z, x);
     make_room_for_newest(contexts);

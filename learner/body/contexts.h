@@ -22,12 +22,14 @@ extern "C" {
 enum {
     CONTEXTS_MAX = LEARNER_MAX_SOLUTIONS,
     CONTEXTS_ON_PROBATION = 4,
+    CONTEXTS_NUMBERS = 1024,
     /* One on probation beside as many as there may be, and one that is being tried. */
     CONTEXTS_ROOM = CONTEXTS_MAX + 2,
     CONTEXTS_KEPT = 512,
 };
 
 struct context {
+    double number;  /* stays its own as long as it lives: births before its own, cyclic */
     double support; /* responsibility taken, all told */
     double recent;  /* share of it in the newest samples */
     double age;     /* samples since it was born */
@@ -41,8 +43,9 @@ struct contexts {
     const struct body *body;
     struct design design;
     const struct kernels *kernels;
-    int most; /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
-    int n;    /* 0 .. most + 1 */
+    int most;      /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
+    int n;         /* 0 .. most + 1 */
+    double births; /* of contexts, ever */
     struct context context[CONTEXTS_ROOM];
 
     /* scratch of one call */

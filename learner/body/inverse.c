@@ -97,7 +97,7 @@ static bool reach_with(struct body_learner *learner, int j, const double *x,
         return false;
     leave_variance(&learner->body, solution.jacobian, out->variance);
     out->weight = context->recent;
-    out->principal = j;
+    out->principal = (int)context->number;
     return true;
 }
 

@@ -8,7 +8,7 @@
 #include "learner/body/body_learner.h"
 
 /* One number a field, so that no padding is saved. */
-enum { CONTEXT_NUMBERS = 7 + DESIGN_SIZES + 3 }; /* with those of what it keeps */
+enum { CONTEXT_NUMBERS = 8 + DESIGN_SIZES + 3 }; /* with those of what it keeps */
 
 static size_t regression_numbers(const struct design *design)
 {
@@ -21,7 +21,7 @@ static size_t fixed_numbers(const struct body_learner *learner)
     size_t each = CONTEXT_NUMBERS + regression_numbers(&learner->contexts->design) +
                   kept_numbers(CONTEXTS_KEPT, (int)d, BODY_OUTPUTS);
 
-    return 3 + BODY_NUMBERS + CONTEXTS_ROOM * each + 3 +
+    return 4 + BODY_NUMBERS + CONTEXTS_ROOM * each + 3 +
            kept_numbers(BODY_WAITING, (int)d, BODY_OUTPUTS);
 }
 
@@ -59,7 +59,7 @@ static void write_context(struct writer *writer, const struct design *design,
 {
     const struct tied *tied = &context->tied;
     double head[] = {context->support, context->recent, context->age, context->scale,
-                     context->twin,    tied->turn,      tied->chosen};
+                     context->twin,    tied->turn,      tied->chosen, context->number};
 
     write_numbers(writer, sizeof head / sizeof *head, head);
     write_numbers(writer, DESIGN_SIZES, tied->evidence);
@@ -72,10 +72,11 @@ void body_save(const void *self, unsigned char *buffer)
 {
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
-    double head[3] = {learner->found, learner->contexts->n, learner->meanwhile->state.M};
+    double head[4] = {learner->found, learner->contexts->n, learner->meanwhile->state.M,
+                      learner->contexts->births};
     double numbers[BODY_NUMBERS];
 
-    write_numbers(&writer, 3, head);
+    write_numbers(&writer, 4, head);
     body_to_numbers(&learner->body, numbers);
     write_numbers(&writer, BODY_NUMBERS, numbers);
     for (int j = 0; j < CONTEXTS_ROOM; j++)
@@ -184,20 +185,22 @@ static bool read_context(struct reader *reader, const struct design *design, boo
                          struct context *context)
 {
     struct tied *tied = &context->tied;
-    double head[7];
+    double head[8];
 
-    read_head(reader, 7, head);
+    read_head(reader, 8, head);
     int turn = whole(reader, head[5], 0, design->size[2] - 1);
     int chosen = whole(reader, head[6], 0, DESIGN_SIZES - 1);
-    demand(reader, !used || (head[0] >= 0.0 && head[0] < most_counted && head[1] >= 0.0 &&
-                             head[1] <= 1.0 && head[2] >= 0.0 && head[2] < most_counted &&
-                             head[3] >= 1.0 && head[4] >= 0.0 && head[4] < most_counted));
+    demand(reader,
+           !used || (head[0] >= 0.0 && head[0] < most_counted && head[1] >= 0.0 && head[1] <= 1.0 &&
+                     head[2] >= 0.0 && head[2] < most_counted && head[3] >= 1.0 && head[4] >= 0.0 &&
+                     head[4] < most_counted && head[7] >= 0.0 && head[7] < CONTEXTS_NUMBERS));
     if (reader->into_place) {
         context->support = head[0];
         context->recent = head[1];
         context->age = head[2];
         context->scale = head[3];
         context->twin = head[4];
+        context->number = head[7];
         tied->turn = turn;
         tied->chosen = chosen;
     }
@@ -227,9 +230,10 @@ static int read_all(struct reader *reader, struct body_learner *learner)
 {
     struct contexts *contexts = learner->contexts;
     int confirmed = 0;
-    double head[3];
+    double head[4];
 
-    read_head(reader, 3, head);
+    read_head(reader, 4, head);
+    demand(reader, head[3] >= 0.0 && head[3] < most_counted && head[3] == (double)(int64_t)head[3]);
     bool found = whole(reader, head[0], 0, 1) != 0;
     int n = whole(reader, head[1], 0, found ? contexts->most + 1 : 0);
     int meanwhile = whole(reader, head[2], 0, found ? 0 : learner->config.capacity);
@@ -237,6 +241,7 @@ static int read_all(struct reader *reader, struct body_learner *learner)
     if (reader->into_place) {
         learner->found = found;
         contexts->n = n;
+        contexts->births = head[3];
     }
     for (int j = 0; j < CONTEXTS_ROOM; j++)
         confirmed += read_context(reader, &contexts->design, j < n, &contexts->context[j]);

@@ -141,7 +141,7 @@ static void expect_refused(struct learner *learner, unsigned char *bytes, size_t
 
 START_TEST(numbers_that_cannot_be_are_refused)
 {
-    enum { HEAD = 3, CHAIN = HEAD, CONTEXT = HEAD + BODY_NUMBERS };
+    enum { HEAD = 4, CHAIN = HEAD, CONTEXT = HEAD + BODY_NUMBERS };
     const double none[] = {NAN, INFINITY, -INFINITY, 1e300};
     struct learner_config config = body_config(JOINTS, 16);
     size_t size;
@@ -157,21 +157,23 @@ START_TEST(numbers_that_cannot_be_are_refused)
     load(before, learner);
     for (size_t word = 0; word < words; word += 1 + (size_t)(word < 2000 ? 0 : bed_uniform(0, 400)))
         expect_refused(learner, bytes, size, word, none[word % 4], before);
-    for (size_t word = 0; word < HEAD; word++) { /* found, contexts, experts */
+    for (size_t word = 0; word < HEAD; word++) { /* found, contexts, experts, births */
         expect_refused(learner, bytes, size, word, -1.0, before);
         expect_refused(learner, bytes, size, word, 0.5, before);
-        expect_refused(learner, bytes, size, word, 18.0, before);
+        if (word < 3)
+            expect_refused(learner, bytes, size, word, 18.0, before);
     }
     expect_refused(learner, bytes, size, 0, 0.0, before);            /* contexts without a body */
     expect_refused(learner, bytes, size, 2, 1.0, before);            /* both at once */
     expect_refused(learner, bytes, size, CHAIN, JOINTS + 1, before); /* another arm */
     for (size_t word = CONTEXT; word < CONTEXT + 5; word++)          /* support .. twin */
         expect_refused(learner, bytes, size, word, -1.0, before);
-    expect_refused(learner, bytes, size, CONTEXT + 1, 1.5, before);  /* a share */
-    expect_refused(learner, bytes, size, CONTEXT + 3, 0.5, before);  /* scale */
-    expect_refused(learner, bytes, size, CONTEXT + 5, 57.0, before); /* turn */
-    expect_refused(learner, bytes, size, CONTEXT + 6, 3.0, before);  /* chosen */
-    expect_refused(learner, bytes, size, CONTEXT + 10, 0.0, before); /* the whitener's diagonal */
+    expect_refused(learner, bytes, size, CONTEXT + 1, 1.5, before);    /* a share */
+    expect_refused(learner, bytes, size, CONTEXT + 3, 0.5, before);    /* scale */
+    expect_refused(learner, bytes, size, CONTEXT + 5, 57.0, before);   /* turn */
+    expect_refused(learner, bytes, size, CONTEXT + 6, 3.0, before);    /* chosen */
+    expect_refused(learner, bytes, size, CONTEXT + 7, 1024.0, before); /* number */
+    expect_refused(learner, bytes, size, CONTEXT + 11, 0.0, before);   /* the whitener's diagonal */
     bed_expect_same_state(learner, before);
     seal(bytes, size);
     ck_assert_int_eq(learner_load(learner, bytes, size, err, sizeof err), 0);
