@@ -171,7 +171,7 @@ START_TEST(numbers_that_cannot_be_are_refused)
     expect_refused(learner, bytes, size, CONTEXT + 3, 0.5, before);  /* scale */
     expect_refused(learner, bytes, size, CONTEXT + 5, 57.0, before); /* turn */
     expect_refused(learner, bytes, size, CONTEXT + 6, 3.0, before);  /* chosen */
-    expect_refused(learner, bytes, size, CONTEXT + 10, 0.0, before); /* the whitener's diagonal */
+    expect_refused(learner, bytes, size, CONTEXT + 12, 0.0, before); /* the whitener's diagonal */
     bed_expect_same_state(learner, before);
     seal(bytes, size);
     ck_assert_int_eq(learner_load(learner, bytes, size, err, sizeof err), 0);
