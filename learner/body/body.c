@@ -37,7 +37,8 @@ static const char *eyes_fault(const struct eyes *eyes)
     if (!usable(&eyes->disparity_middle, 1) || !usable(eyes->neck, 3) || !usable(eyes->eye, 3) ||
         !usable(eyes->tilt, 2) || !usable(eyes->law, 3))
         return "a number of the eyes is not usable";
-    if (!(eyes->angle_unit > 0.0) || !(eyes->disparity_unit > 0.0))
+    if (!(eyes->angle_unit > 0.0 && eyes->angle_unit <= LEARNER_LARGEST_NUMBER &&
+          eyes->disparity_unit > 0.0 && eyes->disparity_unit <= LEARNER_LARGEST_NUMBER))
         return "a unit of the eyes is not positive";
     return NULL;
 }

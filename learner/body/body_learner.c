@@ -101,7 +101,7 @@ static int predict(void *self, const double *z, struct learner_prediction *predi
 {
     struct body_learner *learner = self;
     struct contexts *contexts = learner->contexts;
-    struct learner_solution solution;
+    struct learner_solution solution = {0};
     struct chain_pose pose;
 
     if (!learner->found)

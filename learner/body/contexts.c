@@ -1,4 +1,4 @@
-#include "learner/body/contexts.h"
+#include "learner/body/population.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,14 +9,6 @@
 /* A sample farther than this from what a context predicts (squared, in units of what it may differ)
  * is not its own: a chi-square of three has 1.4e-6 beyond. */
 static const double own = 30.0;
-/* One that fits this well is fitted: 1 % lies beyond. */
-static const double fits = 11.3;
-/* Sizes of a design whose evidence is that near to the chosen one's are believed, too. */
-static const double plausible = 6.0;
-static const double confirmed = 2.5;  /* samples that make a context more than a mistake */
-static const double probation = 30.0; /* samples within which they must come */
-static const double twins = 30.0;     /* samples in a row that make two contexts one */
-static const double recent_share = 0.05;
 static const double least_recent = 1e-6;
 static const double scale_share = 0.02;
 static const double most_scale = 16.0;
@@ -76,11 +68,6 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
     return contexts;
 }
 
-bool contexts_confirmed(const struct context *context)
-{
-    return context->support >= confirmed;
-}
-
 /* Squares of joints farther off lose the digits of everything else. */
 static bool within_sense(const struct design *design, const struct body *body, const double *z)
 {
@@ -124,22 +111,25 @@ static bool whiten_sample(struct contexts *contexts, const double *z, const doub
     return true;
 }
 
-/* The least distance among the sizes that are still plausible. */
-static double distance_of(const struct context *context, const struct tied_fit *fit)
+/* How much better a context foretells the sample than a tip that could be anywhere. */
+static double gain_of(const struct context *context, const struct tied_fit *fit, double fresh)
 {
     const struct tied *tied = &context->tied;
-    double least = fit->distance[tied->chosen];
+    double before = -INFINITY;
+    double after = -INFINITY;
 
-    for (int k = 0; k < DESIGN_SIZES; k++)
-        if (tied->evidence[k] > tied->evidence[tied->chosen] - plausible)
-            least = fmin(least, fit->distance[k]);
-    return least / context->scale;
+    for (int k = 0; k < DESIGN_SIZES; k++) {
+        before = fmax(before, tied->evidence[k]);
+        after = fmax(after, tied->evidence[k] + fit->log_density[k]);
+    }
+    return after - before - fresh;
 }
 
 /* Tests the sample with every context; returns the least distance, and leaves h of those it may
  * belong to. */
 static double weigh(struct contexts *contexts, const double *y)
 {
+    double fresh = tied_fresh_log_density(&contexts->design, contexts->white, y, contexts->doubt);
     double nearest = INFINITY;
     double highest = -INFINITY;
     double sum = 0.0;
@@ -149,9 +139,12 @@ static double weigh(struct contexts *contexts, const double *y)
         struct tied_fit *fit = &contexts->fit[j];
         tied_test(&context->tied, &contexts->design, contexts->kernels, contexts->white, y,
                   contexts->doubt, &contexts->scratch, fit);
-        double distance = distance_of(context, fit);
-        nearest = fmin(nearest, distance);
+        double distance = contexts_distance_of(context, fit);
         contexts->log_h[j] = -INFINITY;
+        contexts->gain[j] = gain_of(context, fit, fresh);
+        if (!contexts_confirmed(context) && contexts->gain[j] < 0.0)
+            continue; /* a tool of its own is the better explanation */
+        nearest = fmin(nearest, distance);
         if (distance <= own)
             contexts->log_h[j] = elementary_log(fmax(context->recent, least_recent)) +
                                  fit->log_density[context->tied.chosen] / context->scale;
@@ -176,63 +169,13 @@ static void learn_in(struct contexts *contexts, int j, double h, const double *y
     if (contexts_confirmed(context)) {
         context->scale += scale_share * h * (fmin(misfit, own) - context->scale);
         context->scale = fmin(fmax(context->scale, 1.0), most_scale);
+    } else {
+        context->gain += h * contexts->gain[j];
     }
     context->support += h;
+    contexts_try(context);
     tied_learn(&context->tied, &contexts->design, contexts->kernels, contexts->white, y, h, keep,
                &contexts->scratch, &contexts->fit[j]);
-}
-
-static void remove_context(struct contexts *contexts, int j)
-{
-    struct context gone = contexts->context[j];
-    size_t behind = (size_t)(contexts->n - j - 1);
-
-    memmove(&contexts->context[j], &contexts->context[j + 1], behind * sizeof gone);
-    memmove(&contexts->fit[j], &contexts->fit[j + 1], behind * sizeof contexts->fit[0]);
-    memmove(&contexts->h[j], &contexts->h[j + 1], behind * sizeof contexts->h[0]);
-    contexts->n--;
-    contexts->context[contexts->n] = gone; /* its room is used again */
-}
-
-int contexts_count_confirmed(const struct contexts *contexts)
-{
-    int count = 0;
-
-    for (int j = 0; j < contexts->n; j++)
-        count += contexts_confirmed(&contexts->context[j]);
-    return count;
-}
-
-/* Who goes when there is no room, beside `stays`: the oldest on probation, or the confirmed one
- * that least of the newest samples were of. */
-static int dispensable(const struct contexts *contexts, bool on_probation, int stays)
-{
-    int chosen = -1;
-
-    for (int j = 0; j < contexts->n; j++) {
-        const struct context *context = &contexts->context[j];
-        const struct context *other = chosen < 0 ? NULL : &contexts->context[chosen];
-        if (j == stays || contexts_confirmed(context) == on_probation)
-            continue;
-        if (!other || (on_probation ? context->age > other->age : context->recent < other->recent))
-            chosen = j;
-    }
-    return chosen;
-}
-
-/* The newest is on probation, too. */
-static void make_room_for_newest(struct contexts *contexts)
-{
-    int on_probation = contexts->n - contexts_count_confirmed(contexts);
-
-    if (on_probation > CONTEXTS_ON_PROBATION || contexts->n > contexts->most + 1)
-        remove_context(contexts, dispensable(contexts, true, contexts->n - 1));
-}
-
-static void make_room_for_confirmed(struct contexts *contexts, int newest)
-{
-    while (contexts_count_confirmed(contexts) > contexts->most)
-        remove_context(contexts, dispensable(contexts, false, newest));
 }
 
 /* A new context that has learned the sample alone; false when no tip could be there. */
@@ -242,7 +185,10 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     struct context *context = &contexts->context[j];
     context->number = fmod(contexts->births, CONTEXTS_NUMBERS);
     context->support = context->age = context->twin = 0.0;
-    context->recent = 0.0;
+    context->recent = contexts_recent_share;
+    context->gain = 0.0;
+    context->confirmed = false;
+    contexts->gain[j] = 0.0;
     context->scale = 1.0;
     tied_reset(&context->tied, &contexts->design);
     kept_clear(&context->kept);
@@ -254,30 +200,12 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     contexts->births += 1.0;
     learn_in(contexts, j, 1.0, y);
     kept_add(&context->kept, z, x);
-    make_room_for_newest(contexts);
+    contexts_make_room_for_newest(contexts);
     return true;
 }
 
-/* The newest sample was context `winner`'s. Who is not needed goes. Returns where the winner is. */
-static int tidy(struct contexts *contexts, int winner)
-{
-    for (int j = contexts->n - 1; j >= 0; j--) {
-        struct context *context = &contexts->context[j];
-        context->age += 1.0;
-        context->recent += recent_share * ((j == winner ? 1.0 : contexts->h[j]) - context->recent);
-        bool fitted = j != winner && distance_of(context, &contexts->fit[j]) < fits;
-        context->twin = fitted ? context->twin + 1.0 : 0.0;
-        bool late = !contexts_confirmed(context) && context->age > probation;
-        bool twin = context->twin >= twins && context->support < contexts->context[winner].support;
-        if (!late && !twin)
-            continue;
-        remove_context(contexts, j);
-        winner -= winner > j;
-    }
-    return winner;
-}
-
-/* What one of the contexts explains, which has most of it. */
+/* What one of the contexts explains, which has most of it. Where that is one on probation, and its
+ * tip would have to give way, the sample may as well be of another tool: both are tried. */
 static void learn_known(struct contexts *contexts, const double *z, const double *x,
                         const double *y)
 {
@@ -290,7 +218,24 @@ static void learn_known(struct contexts *contexts, const double *z, const double
         if (contexts->h[j] > skipped)
             learn_in(contexts, j, contexts->h[j], y);
     kept_add(&contexts->context[winner].kept, z, x);
-    make_room_for_confirmed(contexts, tidy(contexts, winner));
+    bool told_apart =
+        contexts_confirmed(&contexts->context[winner]) || contexts->fit[winner].distance[0] <= own;
+    contexts_make_room_for_confirmed(contexts, contexts_tidy(contexts, winner));
+    if (!told_apart)
+        give_birth(contexts, z, x, y);
+}
+
+/* The newest context was born of what the others did not explain. One on probation that is made of
+ * gross errors explains by chance what it takes: what it could not take counts against it. */
+static void doubt_others(struct contexts *contexts)
+{
+    const double most = 5.0;
+
+    for (int j = 0; j < contexts->n; j++) {
+        contexts->h[j] = 0.0;
+        if (!contexts_confirmed(&contexts->context[j]) && j < contexts->n - 1)
+            contexts->context[j].gain += fmax(fmin(contexts->gain[j], 0.0), -most);
+    }
 }
 
 enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
@@ -308,9 +253,8 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
     }
     if (!give_birth(contexts, z, x, y))
         return LEARNER_OUTLIER;
-    for (int j = 0; j < contexts->n; j++)
-        contexts->h[j] = 0.0;
-    tidy(contexts, contexts->n - 1);
+    doubt_others(contexts);
+    contexts_tidy(contexts, contexts->n - 1);
     return LEARNER_BORN;
 }
 
@@ -322,6 +266,7 @@ static void relearn(struct contexts *contexts, int j)
     double y[BODY_OUTPUTS];
 
     tied_reset(&context->tied, &contexts->design);
+    contexts->gain[j] = 0.0;
     context->scale = 1.0;
     for (int i = 0; i < kept->n; i++) {
         const double *z = kept->z + (ptrdiff_t)i * kept->n_inputs;
@@ -340,5 +285,5 @@ void contexts_stand_on(struct contexts *contexts, const struct body *body)
     design_init(&contexts->design, body);
     for (int j = 0; j < contexts->n; j++)
         relearn(contexts, j);
-    make_room_for_confirmed(contexts, -1);
+    contexts_make_room_for_confirmed(contexts, -1);
 }

@@ -35,6 +35,9 @@ struct context {
     double age;     /* samples since it was born */
     double scale;   /* variance of its misfits, in units of the body's noise; at least 1 */
     double twin; /* samples in a row that it would have explained beside the one that took them */
+    bool confirmed; /* more than a mistake */
+    double gain;    /* while on probation: how much better it foretold its samples than a tip that
+                       could be anywhere, log */
     struct tied tied;
     struct kept kept;
 };
@@ -56,6 +59,7 @@ struct contexts {
     struct tied_fit fit[CONTEXTS_ROOM];
     double log_h[CONTEXTS_ROOM];
     double h[CONTEXTS_ROOM];
+    double gain[CONTEXTS_ROOM]; /* of the sample */
 };
 
 /* Bytes that contexts_create takes from an arena, for a body of n_joints. */

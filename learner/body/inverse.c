@@ -104,7 +104,7 @@ static bool reach_with(struct body_learner *learner, int j, const double *x,
 int body_predict_inverse(void *self, const double *x, struct learner_inverse *inverse)
 {
     struct body_learner *learner = self;
-    struct learner_inverse_solution one;
+    struct learner_inverse_solution one = {0};
 
     if (!learner->found)
         return imle_predict_inverse(learner->meanwhile, x, inverse);

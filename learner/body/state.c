@@ -8,7 +8,10 @@
 #include "learner/body/body_learner.h"
 
 /* One number a field, so that no padding is saved. */
-enum { CONTEXT_NUMBERS = 8 + DESIGN_SIZES + 3 }; /* with those of what it keeps */
+enum {
+    CONTEXT_HEAD = 10,
+    CONTEXT_NUMBERS = CONTEXT_HEAD + DESIGN_SIZES + 3
+}; /* with those of what it keeps */
 
 static size_t regression_numbers(const struct design *design)
 {
@@ -58,10 +61,11 @@ static void write_context(struct writer *writer, const struct design *design,
                           const struct context *context)
 {
     const struct tied *tied = &context->tied;
-    double head[] = {context->support, context->recent, context->age, context->scale,
-                     context->twin,    tied->turn,      tied->chosen, context->number};
+    double head[CONTEXT_HEAD] = {context->support,   context->recent, context->age, context->scale,
+                                 context->twin,      tied->turn,      tied->chosen, context->gain,
+                                 context->confirmed, context->number};
 
-    write_numbers(writer, sizeof head / sizeof *head, head);
+    write_numbers(writer, CONTEXT_HEAD, head);
     write_numbers(writer, DESIGN_SIZES, tied->evidence);
     write_numbers(writer, whitener_row(design->size[2]), tied->G);
     write_numbers(writer, (size_t)design->size[2], tied->b);
@@ -185,22 +189,25 @@ static bool read_context(struct reader *reader, const struct design *design, boo
                          struct context *context)
 {
     struct tied *tied = &context->tied;
-    double head[8];
+    double head[CONTEXT_HEAD];
 
-    read_head(reader, 8, head);
+    read_head(reader, CONTEXT_HEAD, head);
     int turn = whole(reader, head[5], 0, design->size[2] - 1);
     int chosen = whole(reader, head[6], 0, DESIGN_SIZES - 1);
+    bool confirmed = whole(reader, head[8], 0, 1) != 0;
     demand(reader,
            !used || (head[0] >= 0.0 && head[0] < most_counted && head[1] >= 0.0 && head[1] <= 1.0 &&
                      head[2] >= 0.0 && head[2] < most_counted && head[3] >= 1.0 && head[4] >= 0.0 &&
-                     head[4] < most_counted && head[7] >= 0.0 && head[7] < CONTEXTS_NUMBERS));
+                     head[4] < most_counted && head[9] >= 0.0 && head[9] < CONTEXTS_NUMBERS));
     if (reader->into_place) {
         context->support = head[0];
         context->recent = head[1];
         context->age = head[2];
         context->scale = head[3];
         context->twin = head[4];
-        context->number = head[7];
+        context->gain = head[7];
+        context->confirmed = confirmed;
+        context->number = head[9];
         tied->turn = turn;
         tied->chosen = chosen;
     }
@@ -208,7 +215,7 @@ static bool read_context(struct reader *reader, const struct design *design, boo
     read_whitener(reader, design->size[2], used, tied->G);
     read_numbers(reader, (size_t)design->size[2], tied->b);
     read_kept(reader, &context->kept);
-    return used && contexts_confirmed(&(struct context){.support = head[0]});
+    return used && confirmed;
 }
 
 static void read_body(struct reader *reader, bool found, int n_joints, struct body *body)

@@ -132,6 +132,20 @@ void tied_test(const struct tied *tied, const struct design *design, const struc
     }
 }
 
+double tied_fresh_log_density(const struct design *design, const double *rows, const double *y,
+                              const double *doubt)
+{
+    double S[9];
+
+    for (int r = 0; r < 3; r++)
+        for (int s = 0; s < 3; s++)
+            S[3 * r + s] = doubt[3 * r + s] + (r == s ? 1.0 : 0.0) +
+                           vec3_dot(rows + (ptrdiff_t)r * design->size[2],
+                                    rows + (ptrdiff_t)s * design->size[2]);
+    factor(S);
+    return log_density(S, distance_by(S, y));
+}
+
 void tied_refresh(struct tied *tied, const struct design *design, const struct kernels *kernels,
                   struct tied_scratch *scratch)
 {

@@ -62,6 +62,10 @@ void tied_test(const struct tied *tied, const struct design *design, const struc
                const double *rows, const double *y, const double *doubt,
                struct tied_scratch *scratch, struct tied_fit *fit);
 
+/* The log density of y for a tip of which nothing is known. */
+double tied_fresh_log_density(const struct design *design, const double *rows, const double *y,
+                              const double *doubt);
+
 /* Learns them with weight h in 0 .. 1; `keep` in (0, 1] is what the past still counts. `fit` is
  * what tied_test said of them. */
 void tied_learn(struct tied *tied, const struct design *design, const struct kernels *kernels,
