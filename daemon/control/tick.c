@@ -250,6 +250,8 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
         .previous = tick->safety.previous,
         .sight = &tick->sight,
         .estimate = &tick->estimate,
+        .learner = tick->learner,
+        .imagined = &tick->imagined,
     };
     struct wants wants = {.gaze = &tick->gaze, .tried = &tick->tried};
 

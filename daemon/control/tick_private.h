@@ -30,6 +30,7 @@ struct tick {
     struct safety safety;
     struct behaviour behaviour;
     struct learner_prediction pair_prediction; /* too large for the stack */
+    struct learner_prediction imagined;        /* the same */
 
     enum supervisor_state state;
     bool state_known;

@@ -25,9 +25,27 @@ void fake_robot_task(const struct fake_robot *robot, const double *q_arm, double
     x[2] = 20 + 80 * lift - 60 * sin(bend) + 25 * roll - 40 * robot->tool * cos(side);
 }
 
+/* The hand is 10 cm behind the last joint, a tool goes on from there at an angle. */
+static void chain_position(const struct fake_robot *robot, double position[3])
+{
+    const double tip[3] = {0.03 + 0.6 * robot->tool, 0.02, 0.1 + 0.8 * robot->tool};
+    struct chain_pose pose;
+
+    chain_at(robot->chain, robot->q, &pose);
+    for (int row = 0; row < 3; row++) {
+        const double *R = pose.turn[robot->chain->n] + (ptrdiff_t)3 * row;
+        position[row] = pose.p[row] + R[0] * tip[0] + R[1] * tip[1] + R[2] * tip[2];
+    }
+}
+
 void fake_robot_position(const struct fake_robot *robot, double position[3])
 {
     const double *q = robot->q;
+
+    if (robot->chain) {
+        chain_position(robot, position);
+        return;
+    }
     double lift = q[0] + 0.3 * q[6], side = 0.6 * q[1] + q[4], bend = 0.9 - q[3];
     double reach = 0.25 + 0.12 * sin(bend + 0.2 * q[2]);
 

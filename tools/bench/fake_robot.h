@@ -1,6 +1,6 @@
 /* A robot without bodies, for tests of the control step: ideal velocity motors, and eyes that see
  * where a made-up smooth map of the arm's joints puts the marker. What it computes has nothing in
- * common with the daemon's learner. */
+ * common with the daemon's learner, but where a test gives it a chain. */
 #ifndef REACH_TOOLS_BENCH_FAKE_ROBOT_H
 #define REACH_TOOLS_BENCH_FAKE_ROBOT_H
 
@@ -9,6 +9,7 @@
 #include "daemon/config/sizes.h"
 #include "daemon/control/senses/observation.h"
 #include "daemon/control/tick.h"
+#include "learner/body/chain.h"
 
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -23,6 +24,7 @@ struct fake_robot {
     double q[MAX_JOINTS];           /* rad */
     double tool;                    /* length of what it holds; 0 = hand */
     double noise;                   /* of what is seen, standard deviation, px or m */
+    const struct chain *chain;      /* its arm, of a Cartesian robot; NULL = a made-up map */
     bool blind;                     /* the marker is hidden */
     double half_width, half_height; /* of the image, px */
     struct random_state random;

@@ -34,6 +34,10 @@ struct senses {
     const double *previous; /* velocities commanded in the tick before, rad/s */
     const struct sight *sight;
     const struct estimate *estimate;
+
+    /* For what a behaviour imagines (imagine.h): the model, and room for what it says. */
+    struct learner *learner;
+    struct learner_prediction *imagined;
 };
 
 /* What goes out of it; all of it is rest and nothing at first. */

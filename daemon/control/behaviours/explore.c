@@ -5,9 +5,13 @@
  * about what a movement does, random motion is added, in proportion: all is noise at first, none
  * where it knows. Goals come with a random posture, which the joints that the goal leaves free go
  * to: a redundant arm would else know one posture for each place. A goal that gets no nearer is
- * given up: that is how the edge of the workspace is found. */
+ * given up: that is how the edge of the workspace is found.
+ *
+ * With experts on a body it first makes the motions that show one (tour.h), until the model knows
+ * what moving does; its samples count where postures differ, for only these tell of a body. */
 #include "common/base/random.h"
 #include "daemon/control/behaviours/helpers.h"
+#include "daemon/control/behaviours/tour.h"
 
 #include <math.h>
 #include <reach_status_t.h>
@@ -19,6 +23,7 @@ static const double compare_at = 0.05;   /* motion after which prediction and tr
 static const double compare_weight = 0.2;
 static const double speed_least = 0.1; /* share of its speed that the arm keeps while eyes lag */
 static const int64_t noise_us = 400000;
+static const double ignorant = 0.2; /* the body is not known, or there is a new tool on it */
 
 struct explore {
     struct random_state random;
@@ -42,7 +47,15 @@ struct explore {
     double q[MAX_JOINTS];               /* arm joints of the last sample, rad */
     double x_before[SPACE_DIMENSIONS];  /* where the comparison began */
     double predicted[SPACE_DIMENSIONS]; /* how far it should have moved since, task units */
+
+    struct tour tour;
 };
+
+/* Eyes that fixate lose the marker on a tour; they find a body from few fixations. */
+static bool shows_body(const struct config *config)
+{
+    return config->learner.features == LEARNER_BODY && !config->space.fixates;
+}
 
 static double scaled_norm(const struct config *config, const double *x)
 {
@@ -132,7 +145,8 @@ static void gather_sample(struct behaviour *behaviour, const struct senses *sens
         !sight_within(senses->sight, senses->config->explore_tolerance))
         return;
     control_gather(senses, wants, 1);
-    behaviour->progress.done++;
+    if (!shows_body(senses->config) || tour_counts(&explore->tour, senses->config, wants->pair.q))
+        behaviour->progress.done++;
     compare_motion(explore, senses, &wants->pair);
     if (!explore->any)
         next_goal(explore, senses->config, senses->now);
@@ -202,6 +216,17 @@ static void try_goal(struct behaviour *behaviour, const struct senses *senses, s
                              (1 - explore->ignorance) * config->explore_secondary_gain);
 }
 
+/* Returns false once the model knows what moving does. */
+static bool go_on_tour(struct explore *explore, const struct senses *senses, struct wants *wants)
+{
+    if (tour_turn_joints(&explore->tour, senses, wants))
+        return true;
+    if (explore->ignorance < ignorant)
+        return false;
+    tour_visit_postures(&explore->tour, &explore->random, senses, wants);
+    return true;
+}
+
 static bool explore_step(struct behaviour *behaviour, const struct senses *senses,
                          struct wants *wants)
 {
@@ -217,6 +242,8 @@ static bool explore_step(struct behaviour *behaviour, const struct senses *sense
         return true;
     }
     gather_sample(behaviour, senses, wants);
+    if (shows_body(senses->config) && go_on_tour(explore, senses, wants))
+        return true;
     if (explore->any)
         try_goal(behaviour, senses, wants);
     stir(explore, senses, wants);

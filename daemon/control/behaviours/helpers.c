@@ -49,8 +49,17 @@ void control_task_velocity(const struct senses *senses, struct wants *wants,
 void control_task_velocity_by(const struct senses *senses, struct wants *wants,
                               const double *x_velocity, const double *posture, double gain)
 {
-    const struct config *config = senses->config;
     const double *jacobian = estimate_jacobian(senses->estimate);
+
+    if (jacobian)
+        control_joint_velocity(senses->config, senses->q, jacobian, x_velocity, posture, gain,
+                               wants->velocity);
+}
+
+void control_joint_velocity(const struct config *config, const double *q, const double *jacobian,
+                            const double *x_velocity, const double *posture, double gain,
+                            double *velocity)
+{
     struct taskspace taskspace = {
         .n_joints = config_arm_joints(config),
         .n_outputs = SPACE_DIMENSIONS,
@@ -59,15 +68,13 @@ void control_task_velocity_by(const struct senses *senses, struct wants *wants,
         .secondary_gain = gain,
     };
 
-    if (!jacobian)
-        return;
     memcpy(taskspace.scale, config->space.scale, sizeof config->space.scale);
     memcpy(taskspace.posture, posture, sizeof(double) * (size_t)taskspace.n_joints);
     memcpy(taskspace.q_min, config->arm_min.value, sizeof taskspace.q_min);
     memcpy(taskspace.q_max, config->arm_max.value, sizeof taskspace.q_max);
     for (int i = 0; i < taskspace.n_joints; i++)
-        motion_range(config, i, senses->q[i], &taskspace.slowest[i], &taskspace.fastest[i]);
-    taskspace_velocity(&taskspace, jacobian, x_velocity, senses->q, wants->velocity);
+        motion_range(config, i, q[i], &taskspace.slowest[i], &taskspace.fastest[i]);
+    taskspace_velocity(&taskspace, jacobian, x_velocity, q, velocity);
 }
 
 void control_approach(const struct senses *senses, struct wants *wants, const double *target,

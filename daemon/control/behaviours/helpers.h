@@ -22,6 +22,11 @@ void control_task_velocity(const struct senses *senses, struct wants *wants,
 void control_task_velocity_by(const struct senses *senses, struct wants *wants,
                               const double *x_velocity, const double *posture, double gain);
 
+/* The same for any joints q (rad) and Jacobian, into velocity (rad/s). */
+void control_joint_velocity(const struct config *config, const double *q, const double *jacobian,
+                            const double *x_velocity, const double *posture, double gain,
+                            double *velocity);
+
 /* Feedback in terms of what is seen (eq. 5 and 13): `gain` (1/s) times what is left between the
  * marker and `target` (px), as a task velocity (rad/s, rad/s, px/s). `target` becomes this tick's
  * target. */

@@ -1,0 +1,34 @@
+/* Motions that show a body: each joint turned alone, which draws its circle, then postures anywhere
+ * in the joints' range. docs/body.md says why. Plain data; used by the loop thread alone. */
+#ifndef REACH_DAEMON_CONTROL_BEHAVIOURS_TOUR_H
+#define REACH_DAEMON_CONTROL_BEHAVIOURS_TOUR_H
+
+#include "common/base/random.h"
+#include "daemon/control/behaviours/behaviour.h"
+
+/* Postures of late that counted; what is near one of them says nothing new. */
+enum { TOUR_COUNTED = 16 };
+
+struct tour {
+    bool begun;
+    int joint;               /* turned alone now; the number of arm joints when all were */
+    bool back;               /* on its way back */
+    double home[MAX_JOINTS]; /* rad */
+    double goal[MAX_JOINTS]; /* rad */
+    int64_t deadline;        /* us */
+    int n_counted, next_counted;
+    double counted[TOUR_COUNTED][MAX_JOINTS]; /* rad */
+};
+
+/* One tick of turning each joint alone, there and back. Returns false when all were turned. */
+bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wants *wants);
+
+/* One tick on the way to random postures, one after the other. */
+void tour_visit_postures(struct tour *tour, struct random_state *random,
+                         const struct senses *senses, struct wants *wants);
+
+/* Whether the arm joints q (rad) differ by two degrees in some joint from those that counted of
+ * late; if so, they count from now on. */
+bool tour_counts(struct tour *tour, const struct config *config, const double *q);
+
+#endif

@@ -1,0 +1,192 @@
+/* An arm of an industrial one's ranges, from nothing: the motions that show its body, the body
+ * found from them, and reaching anywhere with it. The search for the body runs between two ticks
+ * here. */
+#include "fixture.h"
+#include "learner/finder/seeker.h"
+#include "tests/unit/suite.h"
+#include "world.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double noise = 0.0005; /* m */
+static struct seeker seeker;
+static struct chain chain;
+static int moving_at_once;
+
+/* Seven joints of a Franka's proportions, a little out of true. */
+static void make_arm(int64_t seed)
+{
+    static const double axis[7][3] = {{0, 0, 1}, {0, 1, 0},  {0, 0, 1}, {0, -1, 0},
+                                      {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
+    static const double offset[7][3] = {{0, 0, 0.333},  {0, 0, 0},           {0, 0, 0.316},
+                                        {0.0825, 0, 0}, {-0.0825, 0, 0.384}, {0, 0, 0},
+                                        {0.088, 0, 0}};
+    struct random_state random = random_seed(seed);
+
+    memset(&chain, 0, sizeof chain);
+    chain.n = 7;
+    for (int i = 0; i < 7; i++) {
+        double length = 0;
+        for (int k = 0; k < 3; k++) {
+            chain.axis[i][k] = axis[i][k] + random_uniform(&random, -0.03, 0.03);
+            chain.offset[i][k] = offset[i][k] + random_uniform(&random, -0.01, 0.01);
+            length += chain.axis[i][k] * chain.axis[i][k];
+        }
+        for (int k = 0; k < 3; k++)
+            chain.axis[i][k] /= sqrt(length);
+    }
+}
+
+static struct config wide_config(void)
+{
+    static const double middle[7] = {0, 0, 0, -1.6, 0, 1.9, 0};
+    static const double range[7] = {2.88, 1.76, 2.88, 1.4, 2.88, 1.9, 2.88};
+    struct config config = fixture_robot_config("icub.yaml");
+
+    config.learner.features = LEARNER_BODY;
+    config.learner.noise_share = noise * noise / (0.01 * 0.01);
+    for (int i = 0; i < 7; i++) {
+        config.arm_min.value[i] = middle[i] - range[i];
+        config.arm_max.value[i] = middle[i] + range[i];
+        config.babble_min.value[i] = config.arm_min.value[i] + config.motion_margin;
+        config.babble_max.value[i] = config.arm_max.value[i] - config.motion_margin;
+        config.learner_reference.value[i] = middle[i];
+    }
+    return config;
+}
+
+static void watch(void)
+{
+    int moving = 0;
+
+    for (int i = 0; i < 7; i++)
+        moving += fabs(world.outputs.command.velocity[i]) > 0.1;
+    moving_at_once = moving > moving_at_once ? moving : moving_at_once;
+}
+
+static void begin(int64_t seed)
+{
+    struct learner_config learner;
+
+    make_arm(seed);
+    world_begin(wide_config(), noise);
+    world.robot.chain = &chain;
+    for (int i = 0; i < 7; i++)
+        world.robot.q[i] = 0.5 * (world.config.arm_min.value[i] + world.config.arm_max.value[i]);
+    learner = config_learner(&world.config);
+    seeker_init(&seeker, &learner);
+    moving_at_once = 0;
+    world.watch = watch;
+    world_step();
+}
+
+/* Until the behaviour is over; returns how long that takes, s. */
+static double finish(int most_ticks)
+{
+    int ticks = 0;
+
+    for (; world.outputs.status.behaviour != REACH_STATUS_T_NONE; ticks++) {
+        ck_assert_int_lt(ticks, most_ticks);
+        world_step();
+        if (world.outputs.has_sample)
+            seeker_look(&seeker, tick_learner(world.tick));
+    }
+    return ticks * world.config.period;
+}
+
+static double explore(int count)
+{
+    reach_request_t request = {
+        .kind = REACH_REQUEST_T_EXPLORE, .count = count, .seed = 3, .learn = 1};
+
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    return finish(100000);
+}
+
+/* Targets anywhere in the joints' range, of which so many end within `bound` (m). */
+static int reached(int n, double bound, double *errors)
+{
+    struct random_state random = random_seed(11);
+    int good = 0;
+
+    for (int k = 0; k < n; k++) {
+        reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 20};
+        struct fake_robot there = world.robot;
+        double position[3], error = 0;
+        for (int i = 0; i < 7; i++)
+            there.q[i] = random_uniform(&random, world.config.babble_min.value[i],
+                                        world.config.babble_max.value[i]);
+        fake_robot_position(&there, request.target[0]);
+        ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+        finish(4000);
+        fake_robot_position(&world.robot, position);
+        for (int axis = 0; axis < 3; axis++)
+            error += pow(position[axis] - request.target[0][axis], 2);
+        errors[k] = sqrt(error);
+        good += errors[k] < bound;
+    }
+    return good;
+}
+
+static int smaller(const void *a, const void *b)
+{
+    double left = *(const double *)a, right = *(const double *)b;
+
+    return (left > right) - (left < right);
+}
+
+START_TEST(it_reaches_anywhere_after_150_samples)
+{
+    enum { TARGETS = 12 };
+    double errors[TARGETS];
+
+    for (int64_t seed = 1; seed <= 3; seed++) {
+        begin(seed);
+        double seconds = explore(150);
+        ck_assert_msg(learner_body(tick_learner(world.tick)) != NULL, "%s", seeker.report.why);
+        ck_assert_double_lt(seconds, 90);
+        int good = reached(TARGETS, 0.01, errors);
+        qsort(errors, TARGETS, sizeof *errors, smaller);
+        printf("arm %d: %.0f s of exploring, %d of %d within 1 cm, median %.2f mm, worst %.1f mm\n",
+               (int)seed, seconds, good, TARGETS, 500 * (errors[5] + errors[6]),
+               1000 * errors[TARGETS - 1]);
+        ck_assert_int_eq(good, TARGETS);
+        ck_assert_double_lt(0.5 * (errors[5] + errors[6]), 0.001);
+        ck_assert_int_eq(world.outputs.status.gated, 0);
+        world_end();
+    }
+}
+END_TEST
+
+START_TEST(it_first_turns_each_joint_alone)
+{
+    reach_request_t request = {.kind = REACH_REQUEST_T_EXPLORE, .count = 150, .learn = 1};
+    double home[7], most[7] = {0};
+    int turned = 0;
+
+    begin(1);
+    memcpy(home, world.robot.q, sizeof home);
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    for (int tick = 0; moving_at_once <= 1; tick++) {
+        ck_assert_int_lt(tick, 5000);
+        world_step();
+        for (int i = 0; i < 7; i++)
+            most[i] = fmax(most[i], fabs(world.robot.q[i] - home[i]));
+    }
+    for (int i = 0; i < 7; i++)
+        turned += most[i] > 0.4 && most[i] < 0.5;
+    ck_assert_int_eq(turned, 7);
+    world_end();
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {it_first_turns_each_joint_alone,
+                                  it_reaches_anywhere_after_150_samples};
+
+    return SUITE_RUN("exploring with a body to be found", tests);
+}
