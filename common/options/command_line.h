@@ -78,6 +78,9 @@ struct option_sources {
     int n_overrides;
 };
 
+/* Members of a struct are no expressions: parentheses around them would not compile.
+ * NOLINTBEGIN(bugprone-macro-parentheses) */
+
 /* The rows that fill an option_sources; `example` names a file. */
 #define ARGUMENT_SET(type, list, count)                                                            \
     ARGUMENT_LIST("set", 's', "NAME=VALUE", type, list, count, OPTION_SOURCES_OVERRIDES,           \
@@ -92,6 +95,7 @@ struct option_sources {
 #define ARGUMENT_URL(type, field)                                                                  \
     ARGUMENT_TEXT("url", 'u', "URL", type, field,                                                  \
                   "LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")")
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 struct command_line {
     const char *program;

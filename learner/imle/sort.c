@@ -4,7 +4,7 @@
 /* Index a comes before b: by key, then by age. */
 static bool before(const double *key, int a, int b)
 {
-    return key[a] < key[b] || (key[a] <= key[b] && a < b);
+    return key[a] < key[b] || (a < b && key[a] <= key[b]);
 }
 
 static void swap(int *a, int *b)

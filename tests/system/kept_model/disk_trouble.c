@@ -6,12 +6,14 @@
 #include "common/bus/open.h"
 
 #include <fcntl.h>
+#include <glob.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -189,19 +191,44 @@ static void other_parameters(struct trial *trial)
     puts("other parameters: refused, nothing changed");
 }
 
+/* The newest journal of the model: the one whose name sorts last. */
+static void newest_journal(const struct trial *trial, char *path, size_t size)
+{
+    char pattern[100];
+    glob_t found;
+
+    path_in(trial, "*.journal", pattern, sizeof pattern);
+    if (glob(pattern, 0, NULL, &found) != 0)
+        trial_fail(trial, "there is no journal");
+    snprintf(path, size, "%s", found.gl_pathv[found.gl_pathc - 1]);
+    globfree(&found);
+}
+
+/* A snapshot begins an empty journal: whether the newest one has a record depends on the moment. */
+static bool newest_journal_has_records(const struct trial *trial)
+{
+    const off_t some = 500; /* bytes */
+    char path[200];
+    struct stat status;
+
+    if (!stores_some(trial))
+        return false;
+    newest_journal(trial, path, sizeof path);
+    return stat(path, &status) == 0 && status.st_size > some;
+}
+
 static void damaged_journal(struct trial *trial)
 {
-    char command[300];
+    const off_t in_first_record = 60;
+    char path[200];
+    int file;
 
-    /* The first record of the newest journal, which a mark covers. */
-    snprintf(command, sizeof command,
-             "printf '\\377' | dd of=$(ls %s/*.journal | tail -1) bs=1 seek=60 conv=notrunc "
-             "status=none",
-             trial->directory);
     trial_start(trial);
-    live_until(trial, stores_some, "nothing is stored");
-    reachd_process_end(&trial->daemon, SIGTERM);
-    if (system(command))
+    live_until(trial, newest_journal_has_records, "nothing is in a journal");
+    reachd_process_end(&trial->daemon, SIGKILL); /* which has no time for a snapshot */
+    newest_journal(trial, path, sizeof path);
+    file = open(path, O_WRONLY);
+    if (file < 0 || pwrite(file, "\377", 1, in_first_record) != 1 || close(file))
         trial_fail(trial, "cannot damage the journal");
     refuses(trial, "--verbose", NULL, "journal: at byte 32: damaged");
     puts("a damaged journal: refused with file, offset and reason");
