@@ -23,6 +23,17 @@ constexpr double believed = 0.02; /* doubt, of the length of what was seen */
 constexpr double chain_like = 0.05; /* misfit that is still an arm's, of the length */
 constexpr int many = 150;           /* samples after which an arm that is none is called so */
 
+/* Whether a joint is known to slide, or was seen to. */
+bool slides(const Data &data)
+{
+    const struct body *start = data.settings->start;
+    random_state random = random_seed(0);
+    int seen = 0;
+    const struct chain chain = start ? start->chain : circle_start(data, random, &seen).body.chain;
+
+    return std::any_of(chain.slides, chain.slides + data.n, [](bool one) { return one; });
+}
+
 /* Every fifth sample of a tool that has enough of them judges what the others found. */
 void keep_apart(Data &data, const learner_samples *contexts, int n_contexts)
 {
@@ -59,6 +70,7 @@ void measure_outputs(Data &data)
     for (const Sample &sample : data.samples)
         squares += (sample.x - data.middle).cwiseAbs2();
     data.length = std::max(std::sqrt(squares.sum() / n), 1e-9);
+    data.unit = data.length;
     data.disparity_middle = data.middle[2];
     data.disparity_unit = std::max(2 * std::sqrt(squares[2] / n), 1e-9);
 }
@@ -83,9 +95,10 @@ Data prepare(const finder_settings &settings, const learner_samples *contexts, i
     data.noise = Eigen::Map<const Eigen::Vector3d>(settings.noise);
     if (settings.sees)
         return data;
-    data.noise /= data.length;
+    data.unit = slides(data) ? 1 : data.length;
+    data.noise /= data.unit;
     for (Sample &sample : data.samples)
-        sample.x = (sample.x - data.middle) / data.length;
+        sample.x = (sample.x - data.middle) / data.unit;
     return data;
 }
 
@@ -113,7 +126,7 @@ double relative(const Data &data, double error)
 {
     if (data.settings->sees)
         return error * data.noise[2] / data.disparity_unit;
-    return error * data.noise.maxCoeff();
+    return error * data.noise.maxCoeff() * data.unit / data.length;
 }
 
 /* The best of many starts; stops at the first whose misfit is that of the noise, or when several

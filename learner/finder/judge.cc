@@ -128,7 +128,7 @@ Eigen::Vector3d spread_of(const Data &data)
     double n = (double)data.samples.size();
 
     if (!data.settings->sees)
-        return Eigen::Vector3d::Ones();
+        return Eigen::Vector3d::Constant(data.length / data.unit);
     for (const Sample &sample : data.samples)
         squares += (sample.x - data.middle).cwiseAbs2();
     return (squares / n).cwiseSqrt().cwiseMax(1e-9);

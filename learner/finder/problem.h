@@ -18,13 +18,14 @@ struct Sample {
 };
 
 /* Samples in units that suit the solver: of a place, its distance from the middle of all places
- * over `length`; what eyes say, as it is. */
+ * over `unit`; what eyes say, as it is. */
 struct Data {
     const finder_settings *settings;
     int n; /* joints */
     int contexts;
     Eigen::Vector3d middle;
-    double length;
+    double length;         /* rms distance of places from their middle */
+    double unit;           /* the same, or 1 where a joint slides: by how much its own unit says */
     Eigen::Vector3d noise; /* in the problem's units */
     std::vector<double> joint_middle, joint_range;
     double disparity_middle, disparity_unit;

@@ -80,7 +80,7 @@ Candidate random_start(const Data &data, random_state &random)
 Candidate given_start(const Data &data, const struct body &given)
 {
     Candidate candidate = blank(data);
-    const double unit = data.settings->sees ? 1 : data.length;
+    const double unit = data.settings->sees ? 1 : data.unit;
 
     candidate.body.chain = given.chain;
     candidate.body.eyes = given.eyes;
@@ -98,16 +98,16 @@ struct body in_units(const Data &data, const Candidate &candidate)
 
     if (body.sees) /* what eyes say has no length to give back */
         return body;
-    body.length *= data.length;
+    body.length *= data.unit;
     for (int i = 0; i < data.n; i++)
         for (int k = 0; k < 3; k++)
             body.chain.offset[i][k] =
-                data.length * body.chain.offset[i][k] + (i == 0 ? data.middle[k] : 0);
+                data.unit * body.chain.offset[i][k] + (i == 0 ? data.middle[k] : 0);
     for (int i = 3 * data.n; i < 6 * data.n; i++)
         for (int k = 0; k <= i; k++)
-            body.root[i * (i + 1) / 2 + k] *= data.length;
+            body.root[i * (i + 1) / 2 + k] *= data.unit;
     for (double &noise : body.noise)
-        noise *= data.length;
+        noise *= data.unit;
     return body;
 }
 

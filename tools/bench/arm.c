@@ -53,6 +53,26 @@ void arm_tip(const double q[ARM_JOINTS], const double tool[3], double x[ARM_OUTP
     turn_z(q[0], x);
 }
 
+struct body arm_body(void)
+{
+    static const double axes[ARM_JOINTS][3] = {{0, 0, 1},  {1, 0, 0},  {0, 1, 0}, {0, 1, 0},
+                                               {-1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
+    static const double known = 1e-4; /* m: how well each number is */
+    struct body body = {.chain = {.n = ARM_JOINTS}, .length = 0.3, .gravity = {0, 0, -1}};
+
+    memcpy(body.chain.axis, axes, sizeof axes);
+    body.chain.offset[3][1] = -0.11;
+    body.chain.offset[3][2] = 0.18;
+    body.chain.offset[5][2] = -0.152;
+    for (int i = 0; i < ARM_JOINTS; i++)
+        body.range[i] = (highest[i] - lowest[i]) / 2.0 * radians_per_degree;
+    for (int i = 0; i < BODY_OUTPUTS; i++)
+        body.noise[i] = noise;
+    for (int i = 0; i < body_unknowns(&body); i++)
+        body.root[i * (i + 1) / 2 + i] = known;
+    return body;
+}
+
 /* splitmix64, uniform in [0, 1) */
 static double uniform(struct arm_stream *stream)
 {

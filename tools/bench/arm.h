@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "learner/body/body.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -13,6 +15,9 @@ enum { ARM_JOINTS = 7, ARM_OUTPUTS = 3 };
 /* Position (m) for q (rad: waist yaw, roll, pitch; shoulder pitch, abduction, axial rotation;
  * elbow) of a point that lies `tool` from the palm (m), in the palm's own frame. */
 void arm_tip(const double q[ARM_JOINTS], const double tool[3], double x[ARM_OUTPUTS]);
+
+/* The arm as a finder would have found it, with all 7 joints. */
+struct body arm_body(void);
 
 /* An endless source of samples and queries; begin with arm_stream_start(). */
 struct arm_stream {

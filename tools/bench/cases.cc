@@ -52,6 +52,12 @@ Case polynomial(const learner_config &config)
     return c;
 }
 
+// So many tools on the arm's own body.
+Case on_body(const learner_config &config, int experts)
+{
+    return {"body", config.n_inputs, experts, 100000, 200, 0, 0.3, config};
+}
+
 #ifdef REACH_BENCH_TICK
 // The whole control step; its stream is its own, see tick.c.
 Case tick(int experts)
@@ -81,6 +87,8 @@ std::vector<Case> all_cases()
         polynomial(shipped(icub, 7, {})),
         polynomial(shipped(icub, 7, {"degree=3", "capacity=64"})),
         polynomial(shipped(kobian, 4, {})),
+        on_body(shipped(icub, 7, {"experts=body", "noise_share=0.0025"}), 2),
+        on_body(shipped(icub, 7, {"experts=body", "noise_share=0.0025"}), 16),
 #ifdef REACH_BENCH_TICK
         tick(1000),
 #endif

@@ -8,7 +8,7 @@
 #include "learner/learner.h"
 
 struct Case {
-    std::string kind; // "linear", "cubic", "quartic": what an expert is; "tick": the daemon
+    std::string kind; // "linear", "cubic", "quartic", "body": what an expert is; "tick": the daemon
     int d;
     int experts;          // learn until there are as many
     int most_samples;     // or until so many were learned

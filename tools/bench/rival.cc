@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/base/arena.h"
+#include "tools/bench/arm.h"
 #include "tools/bench/reference/parameters_of.h"
 #include "tools/bench/reference/recursive_imle.h"
 
@@ -18,6 +19,10 @@ public:
     {
         char reason[256] = "no memory";
         learner_ = arena_ ? learner_create(&config, arena_, reason, sizeof reason) : nullptr;
+        const body known = arm_body();
+        if (learner_ && config.features == LEARNER_BODY &&
+            learner_give_body(learner_, &known, reason, sizeof reason) != 0)
+            learner_ = nullptr;
         if (!learner_) {
             arena_destroy(arena_);
             throw std::runtime_error(std::string("learner: ") + reason);

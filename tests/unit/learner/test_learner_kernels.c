@@ -128,6 +128,92 @@ START_TEST(kernels_compute_what_they_say)
 }
 END_TEST
 
+enum { MOST = 43, SPARE = 8 };
+
+/* A triangle with its vectors, and numbers behind each that nobody may change or count. */
+struct triangle {
+    double G[MOST * (MOST + 1) / 2 + SPARE];
+    double v[3 * MOST + SPARE];
+    double y[3 * MOST], back[MOST + SPARE];
+};
+
+static void fill(struct triangle *t, int n)
+{
+    for (int i = 0; i < n * (n + 1) / 2; i++)
+        t->G[i] = bed_uniform(-1.0, 1.0);
+    for (int i = 0; i < 3 * n; i++)
+        t->v[i] = bed_uniform(-1.0, 1.0);
+    for (int i = 0; i < SPARE; i++)
+        t->G[n * (n + 1) / 2 + i] = t->v[3 * n + i] = t->back[n + i] = i % 2 ? NAN : INFINITY;
+}
+
+static void expect_spare(const struct triangle *t, int n)
+{
+    for (int i = 0; i < SPARE; i++) {
+        ck_assert_int_eq(isnan(t->G[n * (n + 1) / 2 + i]) != 0, i % 2);
+        ck_assert_int_eq(isnan(t->back[n + i]) != 0, i % 2);
+    }
+}
+
+/* The kernels that take the diagonal as a vector, beside those that do not. */
+static void compare_three(const struct kernels *kernels, int n)
+{
+    static struct triangle t;
+    double y[MOST], back[MOST];
+
+    fill(&t, n);
+    kernels->whiten_three(n, (size_t)n, t.G, t.v, t.y);
+    for (int k = 0; k < 3; k++) {
+        kernels->whiten(n, t.G, t.v + (size_t)k * (size_t)n, y, back);
+        for (int i = 0; i < n; i++)
+            ck_assert_double_eq_tol(t.y[k * n + i], y[i], 1e-13);
+    }
+    kernels->whiten(n, t.G, t.v + 2 * (size_t)n, y, back);
+    kernels->solve(n, t.G, t.v + 2 * (size_t)n, t.y, t.back);
+    for (int i = 0; i < n; i++) {
+        ck_assert_double_eq_tol(t.y[i], y[i], 1e-13);
+        ck_assert_double_eq_tol(t.back[i], back[i], 1e-12);
+    }
+    expect_spare(&t, n);
+}
+
+/* Turns in one pass are the turns one after the other. */
+static void compare_turns(const struct kernels *kernels, int n, int turns)
+{
+    enum { STRIDE = 48, ROW = 4 * STRIDE };
+    static struct triangle t, plain;
+    double by[4][ROW];
+
+    fill(&t, n);
+    plain = t;
+    for (int i = 0; i < ROW; i++)
+        for (int part = 0; part < 3; part++)
+            by[part][i] = bed_uniform(0.5, 1.0);
+    memset(by[3], 0, sizeof by[3]);
+    for (int turn = 0; turn < turns; turn++) {
+        double s[MOST] = {0.0};
+        size_t at = (size_t)turn * STRIDE;
+        kernels->rotate(n, 0, plain.G, by[0] + at, by[1] + at, by[2] + at, s);
+    }
+    kernels->rotate_often(n, turns, STRIDE, t.G, by[0], by[1], by[2], by[3]);
+    ck_assert_int_eq(memcmp(t.G, plain.G, (size_t)n * ((size_t)n + 1) / 2 * sizeof *t.G), 0);
+    expect_spare(&t, n);
+}
+
+START_TEST(kernels_of_three_rows_compute_the_same)
+{
+    bed_seed();
+    for (int width = LEARNER_KERNELS_PLAIN; width < WIDTHS; width++) {
+        const struct kernels *kernels = kernels_of((enum learner_kernels)width);
+        for (int n = 1; n <= MOST && kernels; n++) {
+            compare_three(kernels, n);
+            compare_turns(kernels, n, 3);
+            compare_turns(kernels, n, 4);
+        }
+    }
+}
+END_TEST
+
 START_TEST(a_width_that_is_none_is_refused)
 {
     struct learner_config config = config_for(LEARNER_LINEAR, LEARNER_CLUSTER_PUBLISHED, 0.999);
@@ -146,6 +232,7 @@ int main(void)
     const TTest *const tests[] = {
         all_widths_learn_and_predict_the_same_bytes,
         kernels_compute_what_they_say,
+        kernels_of_three_rows_compute_the_same,
         a_width_that_is_none_is_refused,
     };
 

@@ -1,0 +1,261 @@
+/* The finder on arms that are made up: it finds chains, and says when there is none or it cannot
+ * know yet. */
+#include "learner/finder/finder.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+/* After the C++ headers: Check takes the word `fail`. */
+#include "made_up_arm.h"
+#include "tests/unit/learner/bed.h"
+#include "tests/unit/suite.h"
+
+namespace
+{
+
+const double tip[3] = {0.05, 0.1, 0.0};
+
+struct Samples {
+    int n_joints;
+    std::vector<double> z, x;
+
+    void add(const double *q, const double *place)
+    {
+        z.insert(z.end(), q, q + n_joints);
+        x.insert(x.end(), place, place + 3);
+    }
+    learner_samples view() const
+    {
+        return {true, int(x.size() / 3), z.data(), x.data()};
+    }
+};
+
+void add_random(Samples &samples, const body &truth, int n)
+{
+    for (int k = 0; k < n; k++) {
+        double q[CHAIN_MAX_JOINTS];
+        double place[3];
+        random_joints(&truth, q);
+        arm_sample(&truth, tip, q, place);
+        samples.add(q, place);
+    }
+}
+
+/* Each joint alone, from the middle of its range, where an odd number of them passes. */
+void add_sweeps(Samples &samples, const body &truth, int each)
+{
+    for (int i = 0; i < truth.chain.n; i++)
+        for (int k = 0; k < each; k++) {
+            double q[CHAIN_MAX_JOINTS];
+            double place[3];
+            for (int j = 0; j < truth.chain.n; j++)
+                q[j] = truth.chain.middle[j];
+            q[i] += truth.range[i] * (2.0 * k / (each - 1) - 1);
+            arm_sample(&truth, tip, q, place);
+            samples.add(q, place);
+        }
+}
+
+struct Answer {
+    finder_outcome outcome;
+    finder_report report;
+    std::unique_ptr<body> found = std::make_unique<body>();
+};
+
+Answer search(const Samples &samples)
+{
+    Answer answer;
+    learner_samples view = samples.view();
+    finder_settings settings = {};
+
+    settings.n_joints = samples.n_joints;
+    for (double &noise : settings.noise)
+        noise = ARM_NOISE;
+    settings.gravity[2] = -1;
+    settings.seed = 1;
+    settings.starts = 40;
+    std::memset(answer.found.get(), 0, sizeof *answer.found);
+    answer.outcome = finder_search(&settings, &view, 1, answer.found.get(), &answer.report);
+    std::printf("%d samples: outcome %d, error %.2f, doubt %.4f, %d starts: %s\n",
+                answer.report.samples, answer.outcome, answer.report.error, answer.report.doubt,
+                answer.report.starts, answer.report.why);
+    std::fflush(stdout);
+    ck_assert_int_eq(answer.outcome, answer.report.outcome);
+    ck_assert_int_eq(answer.report.samples, view.n);
+    return answer;
+}
+
+/* rms distance over the whole range, of a learner that stands on what was found. */
+double error_of(const body &found, const Samples &samples, const body &truth)
+{
+    learner_config config = body_config(truth.chain.n, 16);
+    learner *learner = bed_create(&config);
+    char err[160];
+    double sum = 0;
+    const int queries = 200;
+
+    ck_assert_msg(learner_give_body(learner, &found, err, sizeof err) == 0, "%s", err);
+    learner_samples view = samples.view();
+    for (int k = 0; k < view.n; k++)
+        learner_update(learner, view.z + ptrdiff_t(k) * truth.chain.n, view.x + ptrdiff_t(3) * k);
+    for (int k = 0; k < queries; k++) {
+        double q[CHAIN_MAX_JOINTS];
+        double place[3];
+        learner_solution one{};
+        random_joints(&truth, q);
+        arm_output(&truth, tip, q, place);
+        ck_assert_int_eq(learner_predict_single(learner, q, &one), 1);
+        for (int i = 0; i < 3; i++)
+            sum += (one.value[i] - place[i]) * (one.value[i] - place[i]);
+    }
+    bed_clean();
+    return std::sqrt(sum / queries);
+}
+
+void expect_found(const Samples &samples, const body &truth, double within)
+{
+    Answer answer = search(samples);
+    ck_assert_int_eq(answer.outcome, FINDER_FOUND);
+    double error = error_of(*answer.found, samples, truth);
+    std::printf("error %.2f mm\n", 1e3 * error);
+    ck_assert_double_lt(error, within);
+}
+
+START_TEST(four_joints_are_found_from_thirty_samples)
+{
+    bed_seed();
+    body truth = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    add_random(samples, truth, 30);
+    expect_found(samples, truth, 0.002);
+}
+END_TEST
+
+START_TEST(seven_joints_are_found)
+{
+    bed_seed();
+    body truth = made_up_arm(7, false);
+    Samples samples{7, {}, {}};
+    add_random(samples, truth, 100);
+    expect_found(samples, truth, 0.003);
+}
+END_TEST
+
+START_TEST(a_joint_that_slides_is_found_from_sweeps)
+{
+    bed_seed();
+    body truth = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    truth.chain.slides[1] = true;
+    truth.range[1] = 0.3;
+    add_sweeps(samples, truth, 13);
+    add_random(samples, truth, 20);
+    Answer answer = search(samples);
+    ck_assert_int_eq(answer.outcome, FINDER_FOUND);
+    for (int i = 0; i < 4; i++)
+        ck_assert_int_eq(answer.found->chain.slides[i], i == 1);
+    ck_assert_double_lt(error_of(*answer.found, samples, truth), 0.002);
+}
+END_TEST
+
+/* Two segments that bend into arcs of a circle, each by two inputs. */
+Eigen::Vector3d soft_tip(const double *q)
+{
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+
+    for (int s = 0; s < 2; s++) {
+        const double length = 0.4;
+        Eigen::Vector3d bend(q[2 * s], q[2 * s + 1], 0);
+        double angle = std::max(bend.norm(), 1e-9);
+        Eigen::Vector3d aside = bend / angle;
+        Eigen::Vector3d axis = Eigen::Vector3d::UnitZ().cross(aside);
+        Eigen::Isometry3d arc = Eigen::Isometry3d::Identity();
+        arc.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+        arc.translation() =
+            length / angle *
+            ((1 - std::cos(angle)) * aside + std::sin(angle) * Eigen::Vector3d::UnitZ());
+        pose = pose * arc;
+    }
+    return pose.translation();
+}
+
+START_TEST(a_soft_arm_is_no_chain)
+{
+    bed_seed();
+    Samples samples{4, {}, {}};
+    for (int k = 0; k < 150; k++) {
+        double q[4];
+        for (double &one : q)
+            one = bed_uniform(-1.5, 1.5);
+        Eigen::Vector3d place = soft_tip(q);
+        for (int i = 0; i < 3; i++)
+            place[i] += ARM_NOISE * bed_normal();
+        samples.add(q, place.data());
+    }
+    Answer answer = search(samples);
+    ck_assert_int_eq(answer.outcome, FINDER_NO_CHAIN);
+    ck_assert_ptr_nonnull(std::strstr(answer.report.why, "off by"));
+    ck_assert_int_eq(answer.found->chain.n, 0); /* it is left alone */
+}
+END_TEST
+
+START_TEST(samples_along_a_line_do_not_tell)
+{
+    bed_seed();
+    body truth = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    for (int k = 0; k < 60; k++) {
+        double q[4];
+        double place[3];
+        for (int i = 0; i < 4; i++)
+            q[i] = truth.chain.middle[i] + (k / 30.0 - 1) * (0.3 + 0.2 * i);
+        arm_sample(&truth, tip, q, place);
+        samples.add(q, place);
+    }
+    ck_assert_int_eq(search(samples).outcome, FINDER_NOT_YET);
+
+    Samples few{4, {}, {}};
+    add_random(few, truth, 14);
+    Answer answer = search(few);
+    ck_assert_int_eq(answer.outcome, FINDER_NOT_YET);
+    ck_assert_ptr_nonnull(std::strstr(answer.report.why, "too few"));
+}
+END_TEST
+
+START_TEST(the_same_samples_give_the_same_bytes)
+{
+    bed_seed();
+    body truth = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    std::vector<double> one(BODY_NUMBERS);
+    std::vector<double> other(BODY_NUMBERS);
+    add_random(samples, truth, 30);
+    Answer first = search(samples);
+    Samples copy = samples; /* at another address */
+    Answer second = search(copy);
+    body_to_numbers(first.found.get(), one.data());
+    body_to_numbers(second.found.get(), other.data());
+    ck_assert(one == other);
+    ck_assert_int_eq(std::memcmp(first.report.why, second.report.why, sizeof first.report.why), 0);
+
+    body back; /* and as numbers there and back */
+    body_from_numbers(one.data(), &back);
+    body_to_numbers(&back, other.data());
+    ck_assert(one == other);
+}
+END_TEST
+
+} /* namespace */
+
+int main()
+{
+    const TTest *const tests[] = {
+        four_joints_are_found_from_thirty_samples, seven_joints_are_found,
+        a_joint_that_slides_is_found_from_sweeps,  a_soft_arm_is_no_chain,
+        samples_along_a_line_do_not_tell,          the_same_samples_give_the_same_bytes,
+    };
+    return SUITE_RUN("finder", tests);
+}
