@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const int steps_a_tick = 40; /* some half a millisecond on a body */
-static const int steps_most = 80;  /* of one attempt */
+static const int steps_most = 80;   /* of one attempt */
 static const int attempts_most = 100;
 static const double period = 0.2; /* of an imagined step, s */
 static const double near = 0.02;  /* the target, scaled */

@@ -155,7 +155,7 @@ START_TEST(numbers_that_cannot_be_are_refused)
     unsigned char *bytes = bed_saved(learner, &size);
     size_t words = (size - ENVELOPE) / sizeof(double);
     load(before, learner);
-    for (size_t word = 0; word < words; word += 1 + (size_t)(word < 2000 ? 0 : bed_uniform(0, 400)))
+    for (size_t word = 0; word < words; word += 1 + (size_t)(word < 300 ? 0 : bed_uniform(0, 4000)))
         expect_refused(learner, bytes, size, word, none[word % 4], before);
     for (size_t word = 0; word < HEAD; word++) { /* found, contexts, experts, births */
         expect_refused(learner, bytes, size, word, -1.0, before);
