@@ -11,6 +11,7 @@
 
 enum { JOINTS = 2, CHANGE = 10, MOST_CHANGES = 64, ENVELOPE = 14 * sizeof(uint64_t) };
 
+static struct arena *arena;
 static struct learner *learner;
 static uint8_t *state;   /* as it was saved */
 static uint8_t *changed; /* the same with changes */
@@ -45,7 +46,7 @@ static void begin(void)
         config.sigma0[i] = config.scale[i] = 1;
     for (int i = 0; i < BODY_OUTPUTS; i++)
         config.psi0[i] = 1e-4;
-    struct arena *arena = arena_create(learner_memory(&config));
+    arena = arena_create(learner_memory(&config));
     HARNESS_REQUIRE(arena);
     learner = learner_create(&config, arena, error, sizeof error);
     HARNESS_REQUIRE(learner);

@@ -113,9 +113,36 @@ START_TEST(walk_is_smooth_and_measured)
 }
 END_TEST
 
+/* The body that the benches give to a learner is this arm. */
+START_TEST(body_is_the_arm)
+{
+    struct arm_stream stream = arm_stream_start(6, 7, 0.1);
+    struct body body = arm_body();
+    char err[160];
+
+    ck_assert_msg(body_check(&body, err, sizeof err) == 0, "%s", err);
+    for (int n = 0; n < 100; n++) {
+        struct chain_pose pose;
+        double q[7];
+        double truth[3];
+        arm_stream_take_tool(&stream, n % 3);
+        arm_stream_query(&stream, q);
+        arm_tip(q, stream.tool, truth);
+        chain_at(&body.chain, q, &pose);
+        for (int r = 0; r < 3; r++) {
+            double at = pose.p[r];
+            for (int k = 0; k < 3; k++)
+                at += pose.turn[7][3 * r + k] * (stream.tool[k] - (k == 2 ? 0.197 : 0.0));
+            ck_assert_double_eq_tol(at, truth[r], 1e-12);
+        }
+    }
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {tip_is_the_product_of_rotations,
-                                  tools_differ_and_number_0_is_none, walk_is_smooth_and_measured};
+                                  tools_differ_and_number_0_is_none, walk_is_smooth_and_measured,
+                                  body_is_the_arm};
     return SUITE_RUN("arm of the benches", tests);
 }
