@@ -77,5 +77,9 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
                  learner_give_body(learner, body.get(), ignored, sizeof ignored) == 0;
     seeker->found += found;
     seeker->seconds += processor_seconds() - begin;
+    if (found && seeker->found == 1) {
+        seeker->found_at = learned;
+        seeker->found_seconds = seeker->seconds;
+    }
     return found;
 }
