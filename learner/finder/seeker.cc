@@ -60,12 +60,13 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
     for (int c = 0; c < n_contexts; c++)
         kept += contexts[c].n;
     const struct body *now = learner_body(learner);
-    uint64_t learned = learner_get_statistics(learner).samples;
-    if (kept < seeker->next_kept && (!now || learned < seeker->next_learned))
+    learner_statistics statistics = learner_get_statistics(learner);
+    uint64_t learned = statistics.samples + statistics.outliers + statistics.full;
+    if (kept < seeker->next_kept && learned < seeker->next_learned)
         return false;
     seeker->next_kept = std::max(seeker->next_kept, (int)std::ceil(more_kept * kept));
-    if (now)
-        seeker->next_learned = (uint64_t)(more_learned * (double)learned);
+    seeker->next_learned =
+        std::max(seeker->next_learned, (uint64_t)(more_learned * (double)learned));
     double begin = processor_seconds();
     char ignored[160];
     auto body = std::make_unique<struct body>();

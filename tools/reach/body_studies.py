@@ -81,7 +81,7 @@ def make_lengths(folder: Path, rng: np.random.Generator) -> Files:
 
 def lengths_bars() -> list[Bar]:
     """Bars of one name are averaged."""
-    return [Bar("1 s after each pick-up", 1000 + PICKED * n + 50, strongest(f"length_{n + 1}"), 2)
+    return [Bar("1 s after each pick-up", 1000 + PICKED * n + 50, strongest(f"length_{n}"), 2)
             for n in range(PICKS)]  # fmt: skip
 
 
