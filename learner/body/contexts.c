@@ -16,6 +16,10 @@ static const double plausible = 6.0;
 static const double confirmed = 2.5;  /* samples that make a context more than a mistake */
 static const double probation = 30.0; /* samples within which they must come */
 static const double twins = 30.0;     /* samples in a row that make two contexts one */
+/* A tool that differs by a few times the noise is within what a context may err, each sample for
+ * itself; many in a row are not. Their strain grows by what their misfit exceeds `slack`. */
+static const double slack = 2.0; /* of a misfit whose mean is 1 */
+static const double strained = 8.0;
 static const double recent_share = 0.05;
 static const double least_recent = 1e-6;
 static const double scale_share = 0.02;
@@ -216,7 +220,7 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     make_room(contexts);
     int j = contexts->n;
     struct context *context = &contexts->context[j];
-    context->support = context->age = context->twin = 0.0;
+    context->support = context->age = context->twin = context->strain = 0.0;
     context->recent = 0.0;
     context->scale = 1.0;
     tied_reset(&context->tied, &contexts->design);
@@ -251,6 +255,31 @@ static void tidy(struct contexts *contexts, int winner)
     }
 }
 
+/* Whether this sample, which is the winner's own, is one of many that fit it badly. */
+static bool strains(struct contexts *contexts, int winner)
+{
+    struct context *context = &contexts->context[winner];
+    double misfit = distance_of(context, &contexts->fit[winner]) / BODY_OUTPUTS;
+
+    context->strain = fmax(context->strain + fmin(misfit, fits) - slack, 0.0);
+    if (!contexts_confirmed(context) || context->strain < strained)
+        return false;
+    context->strain = 0.0;
+    return true;
+}
+
+/* The sample is of none that is known: of a new one then. */
+static enum learner_update_result begin_another(struct contexts *contexts, const double *z,
+                                                const double *x, const double *y)
+{
+    if (!give_birth(contexts, z, x, y))
+        return LEARNER_OUTLIER;
+    for (int j = 0; j < contexts->n; j++)
+        contexts->h[j] = 0.0;
+    tidy(contexts, contexts->n - 1);
+    return LEARNER_BORN;
+}
+
 enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
                                           const double *x)
 {
@@ -259,17 +288,15 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
 
     if (!whiten_sample(contexts, z, x, y))
         return LEARNER_OUTLIER;
-    if (!(weigh(contexts, y) <= own)) {
-        if (!give_birth(contexts, z, x, y))
-            return LEARNER_OUTLIER;
-        for (int j = 0; j < contexts->n; j++)
-            contexts->h[j] = 0.0;
-        tidy(contexts, contexts->n - 1);
-        return LEARNER_BORN;
-    }
+    if (!(weigh(contexts, y) <= own))
+        return begin_another(contexts, z, x, y);
     for (int j = 0; j < contexts->n; j++)
         if (contexts->h[j] > contexts->h[winner])
             winner = j;
+    if (strains(contexts, winner)) {
+        contexts->context[winner].recent *= 0.5; /* the new one is as likely */
+        return begin_another(contexts, z, x, y);
+    }
     for (int j = 0; j < contexts->n; j++)
         if (contexts->h[j] > skipped)
             learn_in(contexts, j, contexts->h[j], y);

@@ -26,6 +26,7 @@ struct context {
     double age;     /* samples since it was born */
     double scale;   /* variance of its misfits, in units of the body's noise; at least 1 */
     double twin; /* samples in a row that it would have explained beside the one that took them */
+    double strain; /* by how much the newest samples in a row fitted worse than they should */
     struct tied tied;
     struct kept kept;
 };

@@ -8,7 +8,7 @@
 #include "learner/body/body_learner.h"
 
 /* One number a field, so that no padding is saved. */
-enum { CONTEXT_NUMBERS = 7 + DESIGN_SIZES + 3 }; /* with those of what it keeps */
+enum { CONTEXT_NUMBERS = 8 + DESIGN_SIZES + 3 }; /* with those of what it keeps */
 
 static size_t regression_numbers(const struct design *design)
 {
@@ -59,7 +59,7 @@ static void write_context(struct writer *writer, const struct design *design,
 {
     const struct tied *tied = &context->tied;
     double head[] = {context->support, context->recent, context->age, context->scale,
-                     context->twin,    tied->turn,      tied->chosen};
+                     context->twin,    context->strain, tied->turn,   tied->chosen};
 
     write_numbers(writer, sizeof head / sizeof *head, head);
     write_numbers(writer, DESIGN_SIZES, tied->evidence);
@@ -72,8 +72,7 @@ void body_save(const void *self, unsigned char *buffer)
 {
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
-    double head[3] = {learner->found, learner->contexts->n,
-                      learner->meanwhile->state.M};
+    double head[3] = {learner->found, learner->contexts->n, learner->meanwhile->state.M};
     double numbers[BODY_NUMBERS];
 
     write_numbers(&writer, 3, head);
@@ -151,11 +150,11 @@ static void read_context(struct reader *reader, const struct design *design, boo
                          struct context *context)
 {
     struct tied *tied = &context->tied;
-    double head[7];
+    double head[8];
 
-    read_head(reader, 7, head);
-    int turn = whole(reader, head[5], 0, design->size[2] - 1);
-    int chosen = whole(reader, head[6], 0, DESIGN_SIZES - 1);
+    read_head(reader, 8, head);
+    int turn = whole(reader, head[6], 0, design->size[2] - 1);
+    int chosen = whole(reader, head[7], 0, DESIGN_SIZES - 1);
     reader->fits = reader->fits && (!used || head[3] >= 1.0);
     if (reader->into_place) {
         context->support = head[0];
@@ -163,6 +162,7 @@ static void read_context(struct reader *reader, const struct design *design, boo
         context->age = head[2];
         context->scale = head[3];
         context->twin = head[4];
+        context->strain = head[5];
         tied->turn = turn;
         tied->chosen = chosen;
     }
