@@ -296,10 +296,14 @@ enum finder_outcome finder_search(const struct finder_settings *settings,
     *report = {};
     for (int c = 0; c < n_contexts; c++)
         (contexts[c].rigid ? rigid : bent).push_back(contexts[c]);
-    if (rigid.empty())
-        rigid.swap(bent);
     for (const learner_samples &tool : rigid)
         n += tool.n;
+    if (n < fewest) { /* what bends is better than nothing */
+        for (const learner_samples &tool : bent)
+            n += tool.n;
+        rigid.insert(rigid.end(), bent.begin(), bent.end());
+        bent.clear();
+    }
     if (n < fewest) {
         report->samples = n;
         report->outcome = FINDER_NOT_YET;

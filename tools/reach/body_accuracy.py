@@ -35,7 +35,7 @@ def commit() -> str:
 
 
 def seeds_of(hash_: str, draws: int) -> list[int]:
-    state = np.random.SeedSequence(int(hash_, 16)).generate_state(draws)
+    state = np.random.SeedSequence(int(hash_[:12], 16)).generate_state(draws)
     return [int(seed) for seed in state]
 
 
