@@ -20,7 +20,7 @@ import numpy as np
 from . import page
 from .body_stream import BODY, POLYNOMIAL, BodyStudy, NeverWorse
 from .body_studies import body_studies
-from .evaluation import reach_eval
+from .evaluation import EvaluationError, reach_eval
 from .programs import ROOT
 from .progress import Progress
 from .studies import Bar
@@ -134,7 +134,11 @@ def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
     names = [name for name in options.only if name != BODY]
     every = body_studies(options.data)
     if names:
-        return [study for study in every if study.name in names]
+        chosen = [study for study in every if study.name in names]
+        without = [study.name for study in chosen if study.wants_data and options.data is None]
+        if without:
+            raise EvaluationError(f"{without[0]} wants --data DIR, the reference data")
+        return chosen
     return [study for study in every
             if (study.quick or not options.quick)
             and (options.data is not None or not study.wants_data)]  # fmt: skip
