@@ -9,6 +9,9 @@
 /* A sample farther than this from what a context predicts (squared, in units of what it may differ)
  * is not its own: a chi-square of three has 1.4e-6 beyond. */
 static const double own = 30.0;
+/* How much better than a tip that could be anywhere a tip that gives way must foretell a sample for
+ * that to be the simpler story, log. */
+static const double foretold = 4.0;
 static const double least_recent = 1e-6;
 static const double scale_share = 0.02;
 static const double most_scale = 16.0;
@@ -184,7 +187,7 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     int j = contexts->n;
     struct context *context = &contexts->context[j];
     context->number = fmod(contexts->births, CONTEXTS_NUMBERS);
-    context->support = context->age = context->twin = 0.0;
+    context->support = context->age = context->twin = context->strain = 0.0;
     context->recent = contexts_recent_share;
     context->gain = 0.0;
     context->confirmed = false;
@@ -206,20 +209,15 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
 
 /* What one of the contexts explains, which has most of it. Where that is one on probation, and its
  * tip would have to give way, the sample may as well be of another tool: both are tried. */
-static void learn_known(struct contexts *contexts, const double *z, const double *x,
+static void learn_known(struct contexts *contexts, int winner, const double *z, const double *x,
                         const double *y)
 {
-    int winner = 0;
-
-    for (int j = 0; j < contexts->n; j++)
-        if (contexts->h[j] > contexts->h[winner])
-            winner = j;
     for (int j = 0; j < contexts->n; j++)
         if (contexts->h[j] > skipped)
             learn_in(contexts, j, contexts->h[j], y);
     kept_add(&contexts->context[winner].kept, z, x);
-    bool told_apart =
-        contexts_confirmed(&contexts->context[winner]) || contexts->fit[winner].distance[0] <= own;
+    bool told_apart = contexts_confirmed(&contexts->context[winner]) ||
+                      contexts->fit[winner].distance[0] <= own || contexts->gain[winner] > foretold;
     contexts_make_room_for_confirmed(contexts, contexts_tidy(contexts, winner));
     if (!told_apart)
         give_birth(contexts, z, x, y);
@@ -238,6 +236,16 @@ static void doubt_others(struct contexts *contexts)
     }
 }
 
+static int most_responsible(const struct contexts *contexts)
+{
+    int winner = 0;
+
+    for (int j = 0; j < contexts->n; j++)
+        if (contexts->h[j] > contexts->h[winner])
+            winner = j;
+    return winner;
+}
+
 enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
                                           const double *x)
 {
@@ -248,8 +256,12 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
     if (!whiten_sample(contexts, z, x, y))
         return LEARNER_OUTLIER;
     if (weigh(contexts, y) <= own) {
-        learn_known(contexts, z, x, y);
-        return LEARNER_UPDATED;
+        int winner = most_responsible(contexts);
+        if (!contexts_strained(contexts, winner)) {
+            learn_known(contexts, winner, z, x, y);
+            return LEARNER_UPDATED;
+        }
+        contexts->context[winner].recent *= 0.5; /* the new one is as likely */
     }
     if (!give_birth(contexts, z, x, y))
         return LEARNER_OUTLIER;

@@ -34,7 +34,8 @@ struct context {
     double recent;  /* share of it in the newest samples */
     double age;     /* samples since it was born */
     double scale;   /* variance of its misfits, in units of the body's noise; at least 1 */
-    double twin; /* samples in a row that it would have explained beside the one that took them */
+    double twin;   /* samples in a row that it would have explained beside the one that took them */
+    double strain; /* by how much the newest samples in a row fitted worse than they should */
     bool confirmed; /* more than a mistake */
     double gain;    /* while on probation: how much better it foretold its samples than a tip that
                        could be anywhere, log */

@@ -15,6 +15,10 @@ static const double fits = 11.3;
 /* Sizes of a design whose evidence is that near to the chosen one's are believed, too. */
 static const double plausible = 6.0;
 
+/* Misfits whose mean is 1 add up beyond this, to that much. */
+static const double slack = 2.0;
+static const double most_strain = 8.0;
+
 const double contexts_recent_share = 0.05;
 
 bool contexts_confirmed(const struct context *context)
@@ -39,6 +43,18 @@ double contexts_distance_of(const struct context *context, const struct tied_fit
         if (tied->evidence[k] > tied->evidence[tied->chosen] - plausible)
             least = fmin(least, fit->distance[k]);
     return least / context->scale;
+}
+
+bool contexts_strained(struct contexts *contexts, int winner)
+{
+    struct context *context = &contexts->context[winner];
+    double misfit = contexts_distance_of(context, &contexts->fit[winner]) / BODY_OUTPUTS;
+
+    context->strain = fmax(context->strain + fmin(misfit, fits) - slack, 0.0);
+    if (!contexts_confirmed(context) || context->strain < most_strain)
+        return false;
+    context->strain = 0.0;
+    return true;
 }
 
 void contexts_remove_context(struct contexts *contexts, int j)

@@ -12,6 +12,10 @@ extern "C" {
 /* What the newest sample counts of those that a context had of late. */
 extern const double contexts_recent_share;
 
+/* Whether this sample, which is context `winner`'s own, is one of many in a row that fit it badly:
+ * each for itself is within what the context may err, all together are of another tool. */
+bool contexts_strained(struct contexts *contexts, int winner);
+
 /* The least distance among the sizes of a design that are still plausible. */
 double contexts_distance_of(const struct context *context, const struct tied_fit *fit);
 

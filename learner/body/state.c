@@ -9,7 +9,7 @@
 
 /* One number a field, so that no padding is saved. */
 enum {
-    CONTEXT_HEAD = 10,
+    CONTEXT_HEAD = 11,
     CONTEXT_NUMBERS = CONTEXT_HEAD + DESIGN_SIZES + 3
 }; /* with those of what it keeps */
 
@@ -61,9 +61,10 @@ static void write_context(struct writer *writer, const struct design *design,
                           const struct context *context)
 {
     const struct tied *tied = &context->tied;
-    double head[CONTEXT_HEAD] = {context->support,   context->recent, context->age, context->scale,
-                                 context->twin,      tied->turn,      tied->chosen, context->gain,
-                                 context->confirmed, context->number};
+    double head[CONTEXT_HEAD] = {context->support, context->recent, context->age,
+                                 context->scale,   context->twin,   tied->turn,
+                                 tied->chosen,     context->gain,   context->confirmed,
+                                 context->number,  context->strain};
 
     write_numbers(writer, CONTEXT_HEAD, head);
     write_numbers(writer, DESIGN_SIZES, tied->evidence);
@@ -198,7 +199,8 @@ static bool read_context(struct reader *reader, const struct design *design, boo
     demand(reader,
            !used || (head[0] >= 0.0 && head[0] < most_counted && head[1] >= 0.0 && head[1] <= 1.0 &&
                      head[2] >= 0.0 && head[2] < most_counted && head[3] >= 1.0 && head[4] >= 0.0 &&
-                     head[4] < most_counted && head[9] >= 0.0 && head[9] < CONTEXTS_NUMBERS));
+                     head[4] < most_counted && head[9] >= 0.0 && head[9] < CONTEXTS_NUMBERS &&
+                     head[10] >= 0.0 && head[10] < most_counted));
     if (reader->into_place) {
         context->support = head[0];
         context->recent = head[1];
@@ -208,6 +210,7 @@ static bool read_context(struct reader *reader, const struct design *design, boo
         context->gain = head[7];
         context->confirmed = confirmed;
         context->number = head[9];
+        context->strain = head[10];
         tied->turn = turn;
         tied->chosen = chosen;
     }

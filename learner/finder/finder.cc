@@ -3,6 +3,7 @@
 #include "learner/finder/judge.h"
 #include "learner/finder/problem.h"
 #include "learner/finder/starts.h"
+#include "learner/finder/tips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,8 @@ Data prepare(const finder_settings &settings, const learner_samples *contexts, i
         for (int i = 0; i < contexts[c].n; i++)
             data.samples.push_back(
                 {contexts[c].z + (ptrdiff_t)i * data.n,
-                 Eigen::Map<const Eigen::Vector3d>(contexts[c].x + (ptrdiff_t)3 * i), c, false});
+                 Eigen::Map<const Eigen::Vector3d>(contexts[c].x + (ptrdiff_t)3 * i), c, false,
+                 false});
     measure_joints(data);
     measure_outputs(data);
     keep_apart(data, contexts, n_contexts);
@@ -129,6 +131,12 @@ double relative(const Data &data, double error)
     return error * data.noise.maxCoeff() * data.unit / data.length;
 }
 
+/* The misfit of a right chain is under this, in units of the noise. */
+double near_truth(const Data &data)
+{
+    return std::max(near_noise, near_arm / relative(data, 1));
+}
+
 /* The best of many starts; stops at the first whose misfit is that of the noise, or when several
  * have come to the same best. */
 Candidate search(const Data &data, random_state &random, int *starts)
@@ -158,8 +166,7 @@ Candidate search(const Data &data, random_state &random, int *starts)
             best = candidate;
             any = true;
         }
-        double left = misfit(some, best, false);
-        if (left < near_noise || relative(data, left) < near_arm) {
+        if (misfit(some, best, false) < near_truth(data)) {
             ++*starts;
             break;
         }
@@ -244,6 +251,11 @@ Found find(const finder_settings &settings, const std::vector<learner_samples> &
     found.data = prepare(settings, tools.data(), (int)tools.size());
     report->samples = (int)found.data.samples.size();
     found.best = search(found.data, random, &report->starts);
+    if (!settings.start && tools.size() == 1 &&
+        misfit(found.data, found.best, false, 0) > near_truth(found.data)) {
+        solve(found.data, 60, false, found.best);
+        tell_tips_apart(found.data, random, near_truth(found.data), found.best);
+    }
     solve(found.data, 60, true, found.best);
     report->error = misfit(found.data, found.best, true);
     found.noise = noise_of(found.data, found.best);
@@ -297,10 +309,14 @@ enum finder_outcome finder_search(const struct finder_settings *settings,
     *report = {};
     for (int c = 0; c < n_contexts; c++)
         (contexts[c].rigid ? rigid : bent).push_back(contexts[c]);
-    if (rigid.empty())
-        rigid.swap(bent);
     for (const learner_samples &tool : rigid)
         n += tool.n;
+    if (n < fewest) { /* what bends is better than nothing */
+        for (const learner_samples &tool : bent)
+            n += tool.n;
+        rigid.insert(rigid.end(), bent.begin(), bent.end());
+        bent.clear();
+    }
     if (n < fewest) {
         report->samples = n;
         report->outcome = FINDER_NOT_YET;

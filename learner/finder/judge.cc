@@ -15,7 +15,7 @@ double misfit(const Data &data, const Candidate &candidate, bool apart, double g
 
     for (const Sample &sample : data.samples) {
         double left[3];
-        if (sample.apart != apart)
+        if (sample.apart != apart || sample.gross)
             continue;
         if (!residual(data, candidate.body, candidate.tips[(size_t)sample.context], sample, left,
                       nullptr, nullptr))
@@ -74,6 +74,8 @@ Eigen::MatrixXd information(const Data &data, double scale, const Candidate &can
         double left[3];
         double by_tip[9];
         std::vector<double> by_unknowns(3 * (size_t)n);
+        if (sample.gross)
+            continue;
         if (!residual(data, candidate.body, candidate.tips[(size_t)sample.context], sample, left,
                       by_unknowns.data(), by_tip))
             continue;
@@ -140,7 +142,7 @@ double variance_at(const Data &data, const Candidate &candidate, const Eigen::Ma
                    const Eigen::Vector3d &spread, const double *q)
 {
     const int n = data.unknowns();
-    Sample sample{q, nearest_output(data, q), 0, false};
+    Sample sample{q, nearest_output(data, q), 0, false, false};
     chain_pose pose;
     double tip[3];
     double ignored[9];

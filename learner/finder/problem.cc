@@ -241,7 +241,7 @@ void solve(const Data &data, int most_iterations, bool robust, Candidate &candid
         prior_of_eyes.tail<EYES_UNKNOWNS>() << 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 0;
     problem.AddResidualBlock(new PriorCost(data, prior_of_eyes), nullptr, v.data());
     for (const Sample &sample : data.samples)
-        if (!sample.apart)
+        if (!sample.apart && !sample.gross)
             problem.AddResidualBlock(new SampleCost(data, like, sample),
                                      robust ? new ceres::CauchyLoss(3) : nullptr, v.data(),
                                      candidate.tips[(size_t)sample.context].data());

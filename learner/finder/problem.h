@@ -15,6 +15,7 @@ struct Sample {
     Eigen::Vector3d x; /* in the problem's units */
     int context;
     bool apart; /* kept apart, to judge by */
+    bool gross; /* of nothing that an arm does: left out */
 };
 
 /* Samples in units that suit the solver: of a place, its distance from the middle of all places

@@ -8,9 +8,10 @@
 namespace
 {
 
-constexpr int first_search = 15;   /* samples that differ */
-constexpr double more_kept = 1.25; /* times as many before the next search */
-constexpr double more_learned = 2; /* the same of samples learned, once there is a body */
+constexpr int first_search = 15;     /* samples that differ */
+constexpr double more_kept = 1.25;   /* times as many before the next search */
+constexpr double more_refined = 1.1; /* the same once there is a body to begin with */
+constexpr double more_learned = 2;   /* the same of samples learned, once there is a body */
 constexpr uint64_t first_refined = 500;
 
 double processor_seconds()
@@ -60,12 +61,14 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
     for (int c = 0; c < n_contexts; c++)
         kept += contexts[c].n;
     const struct body *now = learner_body(learner);
-    uint64_t learned = learner_get_statistics(learner).samples;
-    if (kept < seeker->next_kept && (!now || learned < seeker->next_learned))
+    learner_statistics statistics = learner_get_statistics(learner);
+    uint64_t learned = statistics.samples + statistics.outliers + statistics.full;
+    if (kept < seeker->next_kept && learned < seeker->next_learned)
         return false;
-    seeker->next_kept = std::max(seeker->next_kept, (int)std::ceil(more_kept * kept));
-    if (now)
-        seeker->next_learned = (uint64_t)(more_learned * (double)learned);
+    seeker->next_kept =
+        std::max(seeker->next_kept, (int)std::ceil((now ? more_refined : more_kept) * kept));
+    seeker->next_learned =
+        std::max(seeker->next_learned, (uint64_t)(more_learned * (double)learned));
     double begin = processor_seconds();
     char ignored[160];
     auto body = std::make_unique<struct body>();
@@ -77,5 +80,9 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
                  learner_give_body(learner, body.get(), ignored, sizeof ignored) == 0;
     seeker->found += found;
     seeker->seconds += processor_seconds() - begin;
+    if (found && seeker->found == 1) {
+        seeker->found_at = learned;
+        seeker->found_seconds = seeker->seconds;
+    }
     return found;
 }

@@ -15,6 +15,8 @@ struct seeker {
     uint64_t next_learned; /* samples learned, the same */
     int searches;
     int found;
+    uint64_t found_at;           /* samples learned when the first body was found; 0: none yet */
+    double found_seconds;        /* of the searches up to then */
     struct finder_report report; /* of the newest search */
     double seconds;              /* of all searches, this thread's processor time */
 };

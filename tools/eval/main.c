@@ -124,6 +124,9 @@ static void show_progress(struct run *run, size_t done, const char *what)
     run->last_progress = now;
     fprintf(stderr, "\r\033[K%s: %zu, %d experts", what, done,
             learner_get_statistics(run->learner).experts);
+    if (run->seeker.searches > 0)
+        fprintf(stderr, ", %d searches for a body: %s", run->seeker.searches,
+                run->seeker.report.why);
 }
 
 static void clear_progress(const struct run *run)
@@ -132,17 +135,9 @@ static void clear_progress(const struct run *run)
         fputs("\r\033[K", stderr);
 }
 
-/* A search is no part of an update: it has a process of its own beside a robot. */
-static void look_for_body(struct run *run)
+static bool has_body(const struct run *run)
 {
-    int searches = run->seeker.searches;
-
-    seeker_look(&run->seeker, run->learner);
-    if (run->seeker.searches > searches && !run->request.quiet)
-        fprintf(stderr, "after %llu samples: %s; error %.2f of the noise, doubt %.2g, %d starts\n",
-                (unsigned long long)learner_get_statistics(run->learner).samples,
-                run->seeker.report.why, run->seeker.report.error, run->seeker.report.doubt,
-                run->seeker.report.starts);
+    return run->config.kind == LEARNER_IMLE && run->config.features == LEARNER_BODY;
 }
 
 static void learn_next(struct run *run)
@@ -157,8 +152,8 @@ static void learn_next(struct run *run)
     int64_t start = durations_clock();
     learner_update(run->learner, z, x);
     durations_add(&run->updates, start);
-    if (run->config.features == LEARNER_BODY && run->config.kind == LEARNER_IMLE)
-        look_for_body(run);
+    if (has_body(run)) /* no part of the update: beside a robot it has a process of its own */
+        seeker_look(&run->seeker, run->learner);
     run->row++;
 }
 
@@ -190,6 +185,8 @@ static void evaluate(struct run *run)
         result->at = done;
         score_sets(run, result);
         result->statistics = learner_get_statistics(run->learner);
+        result->has_body = has_body(run);
+        result->seeker = run->seeker;
         result->update = durations_summarise(&run->updates);
         result->predict = durations_summarise(&run->predictions);
         durations_clear(&run->updates);

@@ -1,5 +1,7 @@
 #include "tools/eval/report.h"
 
+#include <math.h>
+
 #include "common/program/version.h"
 #include "tools/measure/json.h"
 #include "tools/measure/learner_options.h"
@@ -85,6 +87,27 @@ static void sets_to_json(const struct request *request, const struct report_resu
     json_end_object(json);
 }
 
+/* Of the newest search; `found` says whether the learner stands on a body. */
+static void body_to_json(const struct seeker *seeker, struct json *json)
+{
+    static const char *const outcomes[] = {"found", "not yet", "no chain"};
+    const struct finder_report *newest = &seeker->report;
+
+    json_object(json, "body");
+    json_bool(json, "found", seeker->found > 0);
+    json_text(json, "outcome", seeker->searches > 0 ? outcomes[newest->outcome] : "not yet");
+    json_text(json, "why", newest->why);
+    json_count(json, "samples", (size_t)newest->samples);
+    json_count(json, "starts", (size_t)newest->starts);
+    json_number(json, "error", newest->error);
+    json_number(json, "doubt", newest->doubt);
+    json_count(json, "searches", (size_t)seeker->searches);
+    json_number(json, "seconds", seeker->seconds);
+    json_count(json, "found_at", (size_t)seeker->found_at);
+    json_number(json, "found_seconds", seeker->found > 0 ? seeker->found_seconds : NAN);
+    json_end_object(json);
+}
+
 static void result_to_json(const struct request *request, const struct report_result *result,
                            struct json *json)
 {
@@ -98,6 +121,8 @@ static void result_to_json(const struct request *request, const struct report_re
     json_count(json, "outliers", statistics->outliers);
     json_count(json, "full", statistics->full);
     json_count(json, "refused", statistics->refused);
+    if (result->has_body)
+        body_to_json(&result->seeker, json);
     durations_to_json(&result->update, "update_us", json);
     durations_to_json(&result->predict, "predict_us", json);
     sets_to_json(request, result, false, json);
@@ -159,6 +184,9 @@ void report_print(const struct request *request, const struct report_result *res
     print_times("update", &result->update, out);
     print_times("predict", &result->predict, out);
     fputc('\n', out);
+    if (result->has_body && result->seeker.searches > 0)
+        fprintf(out, "  body: %s, %d searches, %.1f s\n", result->seeker.report.why,
+                result->seeker.searches, result->seeker.seconds);
     for (int i = 0; i < request->n_sets; i++) {
         const struct score_test *test = &result->sets[i].test;
         const struct score_track *track = &result->sets[i].track;

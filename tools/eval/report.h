@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "learner/finder/seeker.h"
 #include "tools/eval/request.h"
 #include "tools/eval/score.h"
 
@@ -19,6 +20,8 @@ struct report_set {
 struct report_result {
     size_t at;
     struct learner_statistics statistics;
+    bool has_body;                        /* experts: body; then */
+    struct seeker seeker;                 /* what was found of it */
     struct durations_summary update;      /* of the updates since the result before */
     struct durations_summary predict;     /* of this result's predictions */
     struct report_set sets[REQUEST_MOST]; /* in the order of the request's */

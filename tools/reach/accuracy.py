@@ -6,7 +6,6 @@ remains in the folder: accuracy.json, table.md.
 
 import argparse
 import json
-import subprocess
 import sys
 import tempfile
 import zlib
@@ -14,14 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
+from . import body_accuracy
+from .body_studies import body_studies
 from .command_line import Parser
-from .programs import BINARIES, ROOT
+from .evaluation import EvaluationError, reach_eval
+from .programs import ROOT
 from .progress import Progress
 from .studies import Study, studies
-
-
-class EvaluationError(Exception):
-    """One line for the user."""
 
 
 def evaluate(study: Study, draw: int, parameters: list[str]) -> dict:
@@ -31,20 +29,8 @@ def evaluate(study: Study, draw: int, parameters: list[str]) -> dict:
     with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
         folder = Path(name)
         files = study.make(folder, np.random.default_rng(seed))
-        report = folder / "report.json"
-        command = [BINARIES / "reach-eval", "--learner", "imle", "--quiet",
-                   "--inputs", study.dimensions[0], "--outputs", study.dimensions[1],
-                   "--train", ",".join(map(str, files.train)),
-                   "--at", ",".join(map(str, counts)), "--json", report]  # fmt: skip
-        for option, paths in (("--test", files.test), ("--track", files.track)):
-            for key, path in paths.items():
-                command += [option, f"{key}={path}"]
-        for parameter in (*study.parameters, *parameters):
-            command += ["--param", parameter]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        if done.returncode != 0:
-            raise EvaluationError(done.stderr.strip())
-        return {result["at"]: result for result in json.loads(report.read_text())["results"]}
+        return reach_eval(study.dimensions, files, counts, folder / "report.json",
+                          parameters=[*study.parameters, *parameters])  # fmt: skip
 
 
 def rows_of(study: Study, draws: list[dict]) -> list[dict]:
@@ -97,29 +83,64 @@ def run(options: argparse.Namespace) -> list[dict]:
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
     names = [study.name for study in studies(True)]
+    bodies = ["body", *(study.name for study in body_studies())]
     parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
-    parser.add_argument("--draws", type=int, default=5, help="draws of every study; default 5")
-    parser.add_argument("--quick", action="store_true", help="use a fifth of the samples")
-    parser.add_argument("--only", nargs="+", choices=names, metavar="STUDY",
-                        help=f"run only these studies, of {', '.join(names)}")  # fmt: skip
-    parser.add_argument("--param", action="append", default=[], metavar="NAME=VALUE",
-                        help="set a parameter of the learner; may be repeated")  # fmt: skip
+    parser.add_argument(
+        "--draws", type=int, help="draws of every study; default 5, of a body 10, or 2 with --quick"
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="use a fifth of the samples; of a body run the cheap studies",
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        choices=names + bodies,
+        metavar="STUDY",
+        default=[],
+        help=f"run only these studies, of {', '.join(names)}; or those of experts"
+        f" on a body: all ({bodies[0]}), or of {', '.join(bodies[1:])}",
+    )
+    parser.add_argument(
+        "--param",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a parameter of the learner; may be repeated",
+    )
+    parser.add_argument(
+        "--data",
+        type=Path,
+        metavar="DIR",
+        help="of a body: the folder of the reference data, for their studies",
+    )
+    parser.add_argument(
+        "--commit", metavar="HASH", help="of a body: draw the seeds from this hash; default: HEAD's"
+    )
+    parser.add_argument("--jobs", type=int, default=2, help="of a body: draws at once; default 2")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
     options = parser.parse_args(arguments)
-    if options.draws < 1:
-        parser.error("--draws must be at least 1")
+    options.body = any(name in bodies for name in options.only)
+    if options.body and not all(name in bodies for name in options.only):
+        parser.error("studies of a body run on their own")
+    if options.draws is None:
+        options.draws = (2 if options.quick else 10) if options.body else 5
+    if options.draws < 1 or options.jobs < 1:
+        parser.error("--draws and --jobs must be at least 1")
     return options
 
 
 def main(arguments: list[str] | None = None) -> int:
     options = parse(arguments)
     try:
-        run(options)
+        (body_accuracy.run if options.body else run)(options)
     except (EvaluationError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)
         return 1
-    print((options.out / "table.md").read_text(), end="")
-    print(f"accuracy: {options.out}/accuracy.json has every number")
+    name, numbers = ("body.md", "body.json") if options.body else ("table.md", "accuracy.json")
+    print((options.out / name).read_text(), end="")
+    print(f"accuracy: {options.out}/{numbers} has every number")
     return 0
 
 

@@ -51,7 +51,7 @@ class Arm:
         return np.stack(columns, axis=-1)
 
     def uniform(self, n: int, rng: np.random.Generator) -> np.ndarray:
-        return rng.uniform(self.limits[:, 0], self.limits[:, 1], (n, 7))
+        return rng.uniform(self.limits[:, 0], self.limits[:, 1], (n, len(self.limits)))
 
     def walk(self, n: int, rng: np.random.Generator, start: np.ndarray | None = None) -> np.ndarray:
         """From one random configuration to the next, all joints arriving together."""

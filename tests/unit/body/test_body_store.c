@@ -173,7 +173,8 @@ START_TEST(numbers_that_cannot_be_are_refused)
     expect_refused(learner, bytes, size, CONTEXT + 5, 57.0, before);   /* turn */
     expect_refused(learner, bytes, size, CONTEXT + 6, 3.0, before);    /* chosen */
     expect_refused(learner, bytes, size, CONTEXT + 9, 1024.0, before); /* number */
-    expect_refused(learner, bytes, size, CONTEXT + 13, 0.0, before);   /* the whitener's diagonal */
+    expect_refused(learner, bytes, size, CONTEXT + 10, -1.0, before);  /* strain */
+    expect_refused(learner, bytes, size, CONTEXT + 14, 0.0, before);   /* the whitener's diagonal */
     bed_expect_same_state(learner, before);
     seal(bytes, size);
     ck_assert_int_eq(learner_load(learner, bytes, size, err, sizeof err), 0);

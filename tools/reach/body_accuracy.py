@@ -1,0 +1,173 @@
+"""`./run accuracy --only body`: what `experts: body` reaches, beside today's polynomials.
+
+Each study (reach.body_studies) is drawn with seeds from the commit's hash; both learners learn the
+same files. What remains in the folder: body.json, body.md, body.html.
+"""
+
+import argparse
+import json
+import math
+import subprocess
+import tempfile
+import zlib
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from . import page
+from .body_stream import BODY, POLYNOMIAL, BodyStudy, NeverWorse
+from .body_studies import body_studies
+from .evaluation import EvaluationError, reach_eval
+from .programs import ROOT
+from .progress import Progress
+from .studies import Bar
+
+QUICK_DRAWS = 2
+
+
+def commit() -> str:
+    """The hash of the tree's commit; zeros where there is no git."""
+    done = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else 40 * "0"
+
+
+def seeds_of(hash_: str, draws: int) -> list[int]:
+    state = np.random.SeedSequence(int(hash_[:12], 16)).generate_state(draws)
+    return [int(seed) for seed in state]
+
+
+def evaluate(study: BodyStudy, draw: int, seed: int, parameters: list[str]) -> dict[str, dict]:
+    """reach-eval's results by learner and number of samples."""
+    rng = np.random.default_rng([zlib.crc32(study.name.encode()), seed])
+    counts = sorted({bar.at for bar in study.bars})
+    with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
+        folder = Path(name)
+        files = study.make(folder, rng, *([draw] if study.numbered else []))
+        return {
+            learner: reach_eval(study.dimensions, files, counts, folder / "report.json",
+                                config=ROOT / "etc" / config,
+                                parameters=[*study.parameters, *parameters])
+            for learner, config in zip((BODY, POLYNOMIAL), study.files, strict=True)
+        }  # fmt: skip
+
+
+def _number(value: Callable[[dict], float], result: dict) -> float:
+    try:
+        return float(value(result))
+    except (KeyError, TypeError):  # nothing was answered, or it has no such number
+        return math.nan
+
+
+def _values(bars: list[Bar], learner: str, draws: list[dict]) -> list[float]:
+    """One of each draw: the mean over bars of one name."""
+    return [float(np.mean([_number(bar.value, draw[learner][bar.at]) for bar in bars]))
+            for draw in draws]  # fmt: skip
+
+
+def _row(study: BodyStudy, bars: list[Bar], draws: list[dict]) -> dict:
+    bar = bars[0]
+    ours, theirs = (_values(bars, learner, draws) for learner in (BODY, POLYNOMIAL))
+    mean, other = float(np.mean(ours)), float(np.mean(theirs))
+    most = other if isinstance(bar, NeverWorse) else bar.most
+    return {
+        "study": study.name, "what": study.what, "metric": bar.name, "unit": bar.unit,
+        "mean": mean, "median": float(np.median(ours)), "values": ours,
+        "polynomial": other, "polynomial_values": theirs,
+        "bar": most, "never_worse": isinstance(bar, NeverWorse),
+        "met": None if math.isinf(most) else bool(mean <= most),
+        "draws_met": sum(value <= most for value in ours),
+    }  # fmt: skip
+
+
+def rows_of(study: BodyStudy, draws: list[dict]) -> list[dict]:
+    names = dict.fromkeys(bar.name for bar in study.bars)
+    return [_row(study, [bar for bar in study.bars if bar.name == name], draws) for name in names]
+
+
+def _short(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.3g}"
+
+
+def _wanted(row: dict) -> str:
+    if row["met"] is None:
+        return ""
+    return "as polynomials" if row["never_worse"] else f"{row['bar']:g}"
+
+
+def _verdict(row: dict) -> str:
+    if row["met"] is None:
+        return ""
+    words = "met" if row["met"] else "NOT met"
+    return f"{words} ({row['draws_met']} of {len(row['values'])})"
+
+
+HEADS = ("study", "", "body", "spread", "polynomials", "at most", "")
+
+
+def cells_of(rows: list[dict]) -> list[list[str]]:
+    cells, named = [], ""
+    for row in rows:
+        first = row["what"] if row["study"] != named else ""
+        named = row["study"]
+        spread = f"{_short(min(row['values']))} .. {_short(max(row['values']))}"
+        cells.append([first, row["metric"], f"{_short(row['mean'])} {row['unit']}", spread,
+                      _short(row["polynomial"]), _wanted(row), _verdict(row)])  # fmt: skip
+    return cells
+
+
+def table(rows: list[dict]) -> str:
+    lines: Iterable = [HEADS, ["---"] * len(HEADS), *cells_of(rows)]
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+def _page(summary: dict) -> str:
+    cells = [[escape(cell) for cell in cells] for cells in cells_of(summary["rows"])]
+    subtitle = (f"commit {summary['commit'][:12]}, seeds {', '.join(map(str, summary['seeds']))};"
+                " mean over the draws, then least and greatest; RMSE a coordinate")  # fmt: skip
+    return page.whole("The learner on a body that it found", subtitle, [page.table(HEADS, cells)])
+
+
+def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
+    names = [name for name in options.only if name != BODY]
+    every = body_studies(options.data)
+    if names:
+        chosen = [study for study in every if study.name in names]
+        without = [study.name for study in chosen if study.wants_data and options.data is None]
+        if without:
+            raise EvaluationError(f"{without[0]} wants --data DIR, the reference data")
+        return chosen
+    return [study for study in every
+            if (study.quick or not options.quick)
+            and (options.data is not None or not study.wants_data)]  # fmt: skip
+
+
+def _write(out: Path, summary: dict) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "body.json").write_text(json.dumps(summary, indent=1) + "\n")
+    (out / "body.md").write_text(table(summary["rows"]))
+    (out / "body.html").write_text(_page(summary))
+
+
+def run(options: argparse.Namespace) -> list[dict]:
+    chosen = chosen_of(options)
+    seeds = seeds_of(options.commit or commit(), options.draws)
+    summary = {"commit": options.commit or commit(), "seeds": seeds, "quick": options.quick,
+               "param": options.param, "rows": []}  # fmt: skip
+    print(f"accuracy: seeds of commit {summary['commit'][:12]}: {', '.join(map(str, seeds))}")
+    progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
+    for study in chosen:
+        draws = min(options.draws, study.most_draws or options.draws)
+        progress.update(study.name, 0.0, f"{draws} draws")
+        with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
+            found = list(pool.map(lambda draw, s=study: evaluate(s, draw, seeds[draw],
+                                                                options.param),
+                                  range(draws)))  # fmt: skip
+        rows = rows_of(study, found)
+        summary["rows"] += rows
+        missed = [row["metric"] for row in rows if row["met"] is False]
+        progress.finish(study.name, f"not met: {', '.join(missed)}" if missed else "all met")
+        _write(options.out, summary)
+    return summary["rows"]
