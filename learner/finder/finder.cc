@@ -22,6 +22,7 @@ constexpr double near_arm = 0.004; /* misfit that no wrong chain reaches, of the
 constexpr double explains = 3.0;  /* misfit kept apart, in units of what the training misfit says */
 constexpr double believed = 0.02; /* doubt, of the length of what was seen */
 constexpr double chain_like = 0.05; /* misfit that is still an arm's, of the length */
+constexpr double as_noisy = 1.5;    /* or, in units of the noise, no more than the sensor's own */
 constexpr int many = 150;           /* samples after which an arm that is none is called so */
 
 /* Whether a joint is known to slide, or was seen to. */
@@ -210,7 +211,7 @@ finder_outcome decide(const Data &data, double noise, finder_report *report)
     int n = report->samples;
 
     if (report->error < explains * std::max(noise, 1.0) &&
-        relative(data, report->error) < chain_like) {
+        (relative(data, report->error) < chain_like || report->error < as_noisy)) {
         if (report->doubt < believed)
             return FINDER_FOUND;
         std::snprintf(report->why, sizeof report->why,

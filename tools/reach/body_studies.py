@@ -75,7 +75,7 @@ def make_lengths(folder: Path, rng: np.random.Generator) -> Files:
     for number in range(PICKS):
         length = rng.uniform(0.1, 0.6) * STICK / np.linalg.norm(STICK)
         stream.learn_with(stream.walk(PICKED), length)
-        stream.test(f"length_{number}", length, rows=200)
+        stream.test(f"length_{number}", length, rows=50)
     return stream.files
 
 
