@@ -143,7 +143,7 @@ double near_truth(const Data &data)
 Candidate search(const Data &data, random_state &random, int *starts)
 {
     const Data some = some_of(data, first_look);
-    Candidate best;
+    Candidate best{};
     int same = 0;
     int seen = 0;
     bool any = false;

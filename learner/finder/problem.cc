@@ -12,6 +12,31 @@ namespace finder
 namespace
 {
 
+double *unknown_of(eyes &e, int k)
+{
+    return k < 3 ? &e.neck[k] : k < 6 ? &e.eye[k - 3] : k < 8 ? &e.tilt[k - 6] : &e.law[k - 7];
+}
+
+/* d (dP / dx) / d unknown k, times u. false where the eyes see nothing on one side of it. */
+bool change_of_view(const eyes &e, int k, const Eigen::Vector3d &x, const double *u, double *change)
+{
+    const double step = 1e-6;
+    eyes moved[2] = {e, e};
+    eyes_view at[2];
+
+    for (int side = 0; side < 2; side++) {
+        *unknown_of(moved[side], k) += side == 0 ? -step : step;
+        if (!eyes_point(&moved[side], x.data(), &at[side]))
+            return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        change[i] = 0;
+        for (int c = 0; c < 3; c++)
+            change[i] += (at[1].by_x[3 * i + c] - at[0].by_x[3 * i + c]) / (2 * step) * u[c];
+    }
+    return true;
+}
+
 /* r = M (tip - P(x)), M = d x / d place over the noise. Its derivative by the eyes has a part from
  * M: d r = -M (dP + dJ u), u = J^-1 (tip - P), where J = dP / dx changes with the eyes, too. */
 bool seen_residual(const Data &data, const struct body &body, const Eigen::Vector3d &tip,
@@ -38,27 +63,13 @@ bool seen_residual(const Data &data, const struct body &body, const Eigen::Vecto
         if (!std::isfinite(white[i]))
             return false;
     }
-    const double step = 1e-6;
     for (int k = 0; by_eyes && k < EYES_UNKNOWNS; k++) {
-        eyes moved[2] = {body.eyes, body.eyes};
-        eyes_view at[2];
         double change[3];
         double turned[3];
-        for (int side = 0; side < 2; side++) {
-            eyes &e = moved[side];
-            double *field = k < 3   ? &e.neck[k]
-                            : k < 6 ? &e.eye[k - 3]
-                            : k < 8 ? &e.tilt[k - 6]
-                                    : &e.law[k - 7];
-            *field += side == 0 ? -step : step;
-            if (!eyes_point(&e, x.data(), &at[side]))
-                return false;
-        }
-        for (int i = 0; i < 3; i++) {
-            change[i] = view.by_unknown[i * EYES_UNKNOWNS + k];
-            for (int c = 0; c < 3; c++)
-                change[i] += (at[1].by_x[3 * i + c] - at[0].by_x[3 * i + c]) / (2 * step) * u[c];
-        }
+        if (!change_of_view(body.eyes, k, x, u, change))
+            return false;
+        for (int i = 0; i < 3; i++)
+            change[i] += view.by_unknown[i * EYES_UNKNOWNS + k];
         mat3_apply(white, change, turned);
         for (int i = 0; i < 3; i++)
             by_eyes[i * EYES_UNKNOWNS + k] = -turned[i];
@@ -73,7 +84,7 @@ bool residual(const Data &data, const struct body &body, const Eigen::Vector3d &
 {
     chain_pose pose;
     double slope[3 * CHAIN_MAX_UNKNOWNS];
-    double by_eyes[3 * EYES_UNKNOWNS];
+    double by_eyes[3 * EYES_UNKNOWNS] = {};
     double white[9] = {1 / data.noise[0], 0, 0, 0, 1 / data.noise[1], 0, 0, 0, 1 / data.noise[2]};
     double turned[3];
     int n_chain = 6 * data.n;

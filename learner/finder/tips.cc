@@ -159,7 +159,7 @@ bool settle(Data &data, int n, random_state &random, double enough, Candidate &c
     for (const Sample &sample : data.samples)
         if (!sample.apart && tip_of(data, candidate, sample, tip))
             points.push_back(tip);
-    if (points.size() < (size_t)(n * fewest_of_tip))
+    if (points.size() < (size_t)n * fewest_of_tip)
         return false;
     data.contexts = n;
     candidate.tips = centres_of(points, n, random);

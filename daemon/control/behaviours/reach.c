@@ -98,6 +98,26 @@ static void reach_start(struct behaviour *behaviour, const reach_request_t *requ
     targets_begin(&reach->targets, &behaviour->progress, request, senses->config);
 }
 
+/* The law of the paper, towards the set-point that slides to the target. */
+static void approach(struct reach *reach, struct progress *progress, const double *target,
+                     const struct senses *senses, struct wants *wants)
+{
+    const struct config *config = senses->config;
+    struct targets *targets = &reach->targets;
+    double velocity[SPACE_DIMENSIONS];
+
+    targets_slide(config->period, config->task_smoothing, target, targets->setpoint,
+                  SPACE_DIMENSIONS);
+    control_approach(senses, wants, targets->setpoint, config->task_gain, velocity);
+    memcpy(wants->target, target, sizeof wants->target);
+    if (sight_seen(senses->sight, senses->now)) {
+        wants->gaze->last_seen = senses->now;
+        control_task_velocity(senses, wants, velocity);
+    } else if ((double)(senses->now - wants->gaze->last_seen) * 1e-6 > config->fixation_timeout) {
+        targets_refixate(targets, progress);
+    }
+}
+
 static bool reach_step(struct behaviour *behaviour, const struct senses *senses,
                        struct wants *wants)
 {
@@ -106,7 +126,6 @@ static bool reach_step(struct behaviour *behaviour, const struct senses *senses,
     struct targets *targets = &reach->targets;
     const double *target = NULL;
     double *setpoint = targets->setpoint;
-    double velocity[SPACE_DIMENSIONS];
 
     if (practice_step(&reach->practice, behaviour, targets, senses, wants))
         return true;
@@ -134,15 +153,7 @@ static bool reach_step(struct behaviour *behaviour, const struct senses *senses,
         memcpy(setpoint, senses->sight->carried, sizeof targets->setpoint);
         return true;
     }
-    targets_slide(config->period, config->task_smoothing, target, setpoint, SPACE_DIMENSIONS);
-    control_approach(senses, wants, setpoint, config->task_gain, velocity);
-    memcpy(wants->target, target, sizeof wants->target);
-    if (sight_seen(senses->sight, senses->now)) {
-        wants->gaze->last_seen = senses->now;
-        control_task_velocity(senses, wants, velocity);
-    } else if ((double)(senses->now - wants->gaze->last_seen) * 1e-6 > config->fixation_timeout) {
-        targets_refixate(targets, &behaviour->progress);
-    }
+    approach(reach, &behaviour->progress, target, senses, wants);
     return true;
 }
 
