@@ -140,7 +140,7 @@ def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
             raise EvaluationError(f"{without[0]} wants --data DIR, the reference data")
         return chosen
     return [study for study in every
-            if (study.quick or not options.quick)
+            if study.kept and (study.quick or not options.quick)
             and (options.data is not None or not study.wants_data)]  # fmt: skip
 
 
