@@ -221,11 +221,15 @@ static void damaged_journal(struct trial *trial)
 {
     const off_t in_first_record = 60;
     char path[200];
-    int file;
+    int file, n = 0;
 
+    while (trial->options[n])
+        n++;
+    trial->options[n] = "--set";
+    trial->options[n + 1] = "model.snapshot=1000"; /* none comes in between */
     trial_start(trial);
     live_until(trial, newest_journal_has_records, "nothing is in a journal");
-    reachd_process_end(&trial->daemon, SIGKILL); /* which has no time for a snapshot */
+    reachd_process_end(&trial->daemon, SIGTERM); /* a mark covers the records then */
     newest_journal(trial, path, sizeof path);
     file = open(path, O_WRONLY);
     if (file < 0 || pwrite(file, "\377", 1, in_first_record) != 1 || close(file))
