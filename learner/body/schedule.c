@@ -1,0 +1,54 @@
+#include "learner/body/schedule.h"
+
+/* Samples that differ, of the first search, and how many times as many before the next. */
+static const int first_search = 15;
+static const double more_kept = 1.25;
+/* A body in use is refined when so many were learned, and then with each doubling. */
+static const uint64_t first_refined = 500;
+static const uint64_t more_learned = 2;
+
+struct body_schedule body_schedule_begin(void)
+{
+    return (struct body_schedule){first_search, first_refined};
+}
+
+int body_schedule_samples(const struct learner *learner, struct learner_samples *contexts)
+{
+    int n = 0;
+
+    for (int c = 0; c < LEARNER_MAX_SOLUTIONS; c++) {
+        struct learner_samples samples = learner_kept_samples(learner, c);
+        if (samples.n > 0)
+            contexts[n++] = samples;
+    }
+    return n;
+}
+
+static int kept(const struct learner *learner)
+{
+    struct learner_samples contexts[LEARNER_MAX_SOLUTIONS];
+    int n_contexts = body_schedule_samples(learner, contexts);
+    int n = 0;
+
+    for (int c = 0; c < n_contexts; c++)
+        n += contexts[c].n;
+    return n;
+}
+
+bool body_schedule_due(const struct body_schedule *schedule, const struct learner *learner)
+{
+    return kept(learner) >= schedule->next_kept ||
+           (learner_body(learner) &&
+            learner_get_statistics(learner).samples >= schedule->next_learned);
+}
+
+void body_schedule_searched(struct body_schedule *schedule, const struct learner *learner)
+{
+    double wanted = more_kept * kept(learner);
+    int next = (int)wanted + ((double)(int)wanted < wanted);
+
+    if (next > schedule->next_kept)
+        schedule->next_kept = next;
+    if (learner_body(learner))
+        schedule->next_learned = more_learned * learner_get_statistics(learner).samples;
+}
