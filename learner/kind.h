@@ -27,6 +27,8 @@ struct learner_ops {
     int (*predict_single)(void *self, const double *z, struct learner_solution *solution);
     int (*predict_inverse)(void *self, const double *x, struct learner_inverse *inverse);
     int (*experts)(const void *self);
+    /* Those whose bytes are in a saved state; NULL: all of them. */
+    int (*saved_experts)(const void *self);
     /* Bytes of a state with that many experts, without the wrapper's header. */
     size_t (*state_size)(const void *self, int n_experts);
     void (*save)(const void *self, unsigned char *buffer);

@@ -173,11 +173,17 @@ static uint64_t checksum(const struct envelope *envelope, const unsigned char *s
     return learner_hash(hash, envelope, offsetof(struct envelope, checksum));
 }
 
+static int saved_experts(const struct learner *learner)
+{
+    const struct learner_ops *ops = learner->ops;
+
+    return ops->saved_experts ? ops->saved_experts(learner->self) : ops->experts(learner->self);
+}
+
 size_t learner_save_size(const struct learner *learner)
 {
-    int experts = learner->ops->experts(learner->self);
-
-    return sizeof(struct envelope) + learner->ops->state_size(learner->self, experts);
+    return sizeof(struct envelope) +
+           learner->ops->state_size(learner->self, saved_experts(learner));
 }
 
 size_t learner_save(const struct learner *learner, void *buffer, size_t size)
@@ -190,7 +196,7 @@ size_t learner_save(const struct learner *learner, void *buffer, size_t size)
         .n_inputs = (uint64_t)learner->config.n_inputs,
         .n_outputs = (uint64_t)learner->config.n_outputs,
         .parameters = learner_config_hash(&learner->config),
-        .experts = (uint64_t)learner->ops->experts(learner->self),
+        .experts = (uint64_t)saved_experts(learner),
         .size = learner_save_size(learner),
         .samples = counts->samples,
         .births = counts->births,

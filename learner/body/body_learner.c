@@ -139,6 +139,14 @@ static int experts(const void *self)
     return learner->found ? learner->contexts->n : learner->meanwhile->state.M;
 }
 
+/* The mixture is of no use any more once there is a body. */
+static int saved_experts(const void *self)
+{
+    const struct body_learner *learner = self;
+
+    return learner->found ? 0 : learner->meanwhile->state.M;
+}
+
 static int give_body(void *self, const struct body *body, char *err, size_t err_size)
 {
     struct body_learner *learner = self;
@@ -192,6 +200,7 @@ const struct learner_ops learner_body_ops = {
     .predict_single = predict_single,
     .predict_inverse = body_predict_inverse,
     .experts = experts,
+    .saved_experts = saved_experts,
     .state_size = body_state_size,
     .give_body = give_body,
     .body = body_of,
