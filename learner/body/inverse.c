@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "learner/body/body_learner.h"
+#include "learner/body/order.h"
 #include "learner/body/vec3.h"
 
 static const double damping = 1e-3; /* of the squared output that a joint's range makes */
@@ -99,6 +100,8 @@ int body_predict_inverse(void *self, const double *x, struct learner_inverse *in
         if (!(distance < INFINITY))
             continue;
         leave_variance(&learner->body, solution.jacobian, out->variance);
+        order_to_inputs(&learner->config, 1, out->z);
+        order_to_inputs(&learner->config, 1, out->variance);
         out->weight = context->recent;
         out->principal = j;
         inverse->n_solutions++;

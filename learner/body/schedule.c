@@ -3,13 +3,14 @@
 /* Samples that differ, of the first search, and how many times as many before the next. */
 static const int first_search = 15;
 static const double more_kept = 1.25;
-/* A body in use is refined when so many were learned, and then with each doubling. */
-static const uint64_t first_refined = 500;
+/* What is kept is bounded and follows the robot. So a search is also due when so many were learned,
+ * and then with each doubling: to refine the body in use, or to find one at last. */
+static const uint64_t first_learned = 500;
 static const uint64_t more_learned = 2;
 
 struct body_schedule body_schedule_begin(void)
 {
-    return (struct body_schedule){first_search, first_refined};
+    return (struct body_schedule){first_search, first_learned};
 }
 
 int body_schedule_samples(const struct learner *learner, struct learner_samples *contexts)
@@ -38,8 +39,7 @@ static int kept(const struct learner *learner)
 bool body_schedule_due(const struct body_schedule *schedule, const struct learner *learner)
 {
     return kept(learner) >= schedule->next_kept ||
-           (learner_body(learner) &&
-            learner_get_statistics(learner).samples >= schedule->next_learned);
+           learner_get_statistics(learner).samples >= schedule->next_learned;
 }
 
 void body_schedule_searched(struct body_schedule *schedule, const struct learner *learner)
@@ -49,6 +49,7 @@ void body_schedule_searched(struct body_schedule *schedule, const struct learner
 
     if (next > schedule->next_kept)
         schedule->next_kept = next;
-    if (learner_body(learner))
-        schedule->next_learned = more_learned * learner_get_statistics(learner).samples;
+    schedule->next_learned = more_learned * learner_get_statistics(learner).samples;
+    if (!learner_body(learner) && schedule->next_learned < first_learned)
+        schedule->next_learned = first_learned;
 }

@@ -11,7 +11,7 @@ extern "C" {
 
 struct body_schedule {
     int next_kept;         /* samples that differ, with which the next search is due */
-    uint64_t next_learned; /* samples learned, the same once there is a body */
+    uint64_t next_learned; /* samples learned, the same */
 };
 
 /* Of a learner that knows nothing yet. */

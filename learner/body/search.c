@@ -12,7 +12,9 @@ struct finder_settings finder_settings_of(const struct learner_config *config)
         .starts = config->body.starts,
     };
 
+    double share = config->body.noise_share > 0 ? config->body.noise_share : config->noise_share;
+
     for (int i = 0; i < BODY_OUTPUTS; i++)
-        settings.noise[i] = sqrt(config->psi0[i] * config->noise_share);
+        settings.noise[i] = sqrt(config->psi0[i] * share);
     return settings;
 }

@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 /* Samples of n_contexts tools, those of each that differ in the joints (learner_kept_samples()).
- * Fills `body` when something was found, `report` always. */
+ * Fills `body` when the report says so, and always the report. */
 enum finder_outcome finder_search(const struct finder_settings *settings,
                                   const struct learner_samples *contexts, int n_contexts,
                                   struct body *body, struct finder_report *report);

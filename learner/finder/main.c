@@ -82,6 +82,7 @@ static void search(struct finder_bus *bus, const struct question *question)
 {
     static reach_body_t answer;
     static struct body body;
+    static int done;
     struct finder_report report;
     double begin = processor_seconds();
 
@@ -90,7 +91,7 @@ static void search(struct finder_bus *bus, const struct question *question)
     answer.outcome = (int8_t)finder_search(&question->settings, question->contexts,
                                            question->n_contexts, &body, &report);
     searches = 0;
-    if (answer.outcome == REACH_BODY_T_FOUND)
+    if (report.any_body)
         body_to_numbers(&body, answer.numbers);
     answer.checksum = (int32_t)checksum_crc32(answer.numbers, sizeof answer.numbers);
     answer.samples = report.samples;
@@ -101,11 +102,13 @@ static void search(struct finder_bus *bus, const struct question *question)
     memcpy(answer.why, report.why, sizeof answer.why);
     finder_bus_answer(bus, &answer);
     say(&answer, &report);
+    done++;
+    notify_send("STATUS=%d searches; the last one: %s", done, report.why);
 }
 
 static void serve(struct finder_bus *bus)
 {
-    notify_send("READY=1");
+    notify_send("READY=1\nSTATUS=waiting for reachd's samples");
     log_info("ready");
     while (!end_asked) {
         struct question *question = finder_bus_take(bus);

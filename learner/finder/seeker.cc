@@ -1,7 +1,6 @@
 #include "learner/finder/seeker.h"
 
 #include <ctime>
-#include <memory>
 
 namespace
 {
@@ -33,13 +32,15 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
     int n_contexts = body_schedule_samples(learner, contexts);
     double begin = processor_seconds();
     char ignored[160];
-    auto body = std::make_unique<struct body>();
-    seeker->settings.start = learner_body(learner);
+    struct body start = seeker->body;
+    const struct body *now = learner_body(learner);
+    seeker->settings.start = now ? now : seeker->any_body ? &start : nullptr;
     seeker->settings.seed++;
     seeker->searches++;
-    bool found = finder_search(&seeker->settings, contexts, n_contexts, body.get(),
+    bool found = finder_search(&seeker->settings, contexts, n_contexts, &seeker->body,
                                &seeker->report) == FINDER_FOUND &&
-                 learner_give_body(learner, body.get(), ignored, sizeof ignored) == 0;
+                 learner_give_body(learner, &seeker->body, ignored, sizeof ignored) == 0;
+    seeker->any_body = seeker->any_body || seeker->report.any_body;
     seeker->found += found;
     seeker->seconds += processor_seconds() - begin;
     return found;

@@ -16,7 +16,9 @@ struct seeker {
     int searches;
     int found;
     struct finder_report report; /* of the newest search */
-    double seconds;              /* of all searches, this thread's processor time */
+    bool any_body;               /* `body` is one that a search came to */
+    struct body body;
+    double seconds; /* of all searches, this thread's processor time */
 };
 
 /* For a learner of this configuration, with LEARNER_BODY. */

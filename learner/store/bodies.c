@@ -9,7 +9,8 @@
 
 static const int64_t first_patience_us = 3000000; /* until somebody says that the request came */
 static const int64_t next_patience_us = 300000;   /* the same, once nobody did */
-static const int64_t again_us = 500000;           /* a request may have been lost */
+static const int64_t again_us = 500000;           /* a request may have been lost, */
+static const int64_t answer_us = 5000000;         /* or, once it came, its answer */
 static const int64_t search_us = 60000000;        /* for the search itself */
 
 bool model_store_seeks(const struct model_store_settings *settings)
@@ -77,6 +78,7 @@ bool model_store_poll_body(struct model_store *store, bool *awaited)
 
 void model_store_drop_search(struct model_store *store)
 {
+    store->search.any_candidate = false;
     if (stage_of(store) != SEARCH_NONE)
         end_search(store, MODEL_STORE_NO_SEARCH);
 }
@@ -96,6 +98,8 @@ void model_store_search_if_reached(struct model_store *store, int64_t now)
         return;
     wanted.seq = wanted.settings.seed = search->seq;
     wanted.settings.start = learner_body(store->shadow);
+    if (!wanted.settings.start && search->any_candidate)
+        wanted.settings.start = &search->candidate;
     wanted.n_contexts = body_schedule_samples(store->shadow, wanted.contexts);
     search->sent_at = search->asked_at = now;
     search->came = false;
@@ -121,6 +125,9 @@ static void take_report(struct model_store *store)
         set_stage(store, SEARCH_FOUND);
         break;
     case FINDER_NOT_YET:
+        store->search.any_candidate = store->search.any_candidate || answer->report.any_body;
+        if (answer->report.any_body)
+            store->search.candidate = answer->body;
         log_debug("no body yet: %s", answer->report.why);
         end_search(store, MODEL_STORE_NOT_YET);
         break;
@@ -177,7 +184,7 @@ void model_store_follow_search(struct model_store *store, int64_t now)
         take_answer(store);
     if (stage_of(store) != SEARCH_SENT)
         return;
-    if (now - search->asked_at > again_us) {
+    if (now - search->asked_at > (search->came ? answer_us : again_us)) {
         search->asked_at = now;
         finder->ask_again(finder->user);
     }

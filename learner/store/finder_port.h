@@ -25,7 +25,7 @@ struct body_answer {
     struct finder_report report; /* of a REPORT; of a REFUSED, why */
     double seconds;              /* of the search */
     uint32_t checksum;           /* of the body, for the trace */
-    struct body body;            /* of a REPORT that is FOUND; checked */
+    struct body body;            /* of a REPORT with any_body; checked */
 };
 
 struct finder_port {

@@ -45,6 +45,8 @@ struct search {
     bool came;        /* somebody searches */
     bool absent;      /* said: nobody does */
     struct body_answer answer;
+    bool any_candidate; /* what a search came to that was not sure enough: */
+    struct body candidate;
 };
 
 struct model_store {
