@@ -71,6 +71,12 @@ int recorded_store_follow(struct recorded_store *store, const struct learner_con
     return 0;
 }
 
+void recorded_store_give(struct recorded_store *store, const struct body *body)
+{
+    store->body = *body;
+    store->give = true;
+}
+
 void recorded_store_close(struct recorded_store *store)
 {
     arena_destroy(store->arena);
@@ -81,6 +87,11 @@ static bool note(void *context, const double *z, const double *x)
 {
     (void)context, (void)z, (void)x;
     return true;
+}
+
+static void take_no_notice(void *context, const struct learner *learner)
+{
+    (void)context, (void)learner;
 }
 
 /* How many samples a tick learned is in its trace: nothing waits here. */
@@ -105,6 +116,7 @@ static enum model_result poll_recorded(void *context, struct learner **learner)
 {
     struct recorded_store *store = context;
     struct learner *old = *learner;
+    char ignored[160]; /* a body that is refused shows in what the tick sends */
 
     store->ready = store->moment.ready;
     if (store->take) {
@@ -112,6 +124,9 @@ static enum model_result poll_recorded(void *context, struct learner **learner)
         store->learner = old;
         store->take = false;
     }
+    if (store->give)
+        learner_give_body(*learner, &store->body, ignored, sizeof ignored);
+    store->give = false;
     return store->moment.result;
 }
 
@@ -131,6 +146,7 @@ static struct model_report report_nothing(const void *context)
 
 static const struct model_port_ops ops = {
     .note = note,
+    .learned = take_no_notice,
     .full = is_never,
     .works = is_never,
     .begin_save = begin_request,

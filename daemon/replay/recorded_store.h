@@ -5,6 +5,7 @@
 
 #include "common/base/arena.h"
 #include "daemon/control/model_port.h"
+#include "learner/body/body.h"
 #include "learner/store/model_file.h"
 
 #include <stdbool.h>
@@ -19,8 +20,10 @@ struct recorded_store {
     struct arena *arena;     /* of what follows, once a model is needed */
     struct learner *learner; /* that models are read into */
     struct model_bytes model;
-    uint64_t hash; /* of what the control step's learner was given whole */
-    bool take;     /* `learner` changes places with the control step's at the next poll */
+    uint64_t hash;    /* of what the control step's learner was given whole */
+    bool take;        /* `learner` changes places with the control step's at the next poll */
+    struct body body; /* what the control step's learner gets at the next poll, */
+    bool give;        /* if it does */
     struct model_moment moment;
     bool ready; /* a save or load can begin */
 };
@@ -34,6 +37,9 @@ int recorded_store_open(struct recorded_store *store, const struct learner_confi
  * before, is read and changes places with the control step's. Returns as above. */
 int recorded_store_follow(struct recorded_store *store, const struct learner_config *config,
                           const struct model_moment *moment, char *error, size_t error_size);
+
+/* The body that the learner was given in the tick ahead. */
+void recorded_store_give(struct recorded_store *store, const struct body *body);
 
 /* The run is over: frees what it had; the next may be opened. */
 void recorded_store_close(struct recorded_store *store);
