@@ -31,7 +31,9 @@ static const struct body_answer *find_body(const struct replay *replay, int64_t 
 int replay_follow_body(struct replay *replay, char *error, size_t error_size)
 {
     const reach_trace_t *trace = &replay->trace;
+    const struct learner_config learner = config_learner(replay->used);
     const struct body_answer *found;
+    char reason[200];
 
     if (trace->body == 0)
         return 0;
@@ -45,6 +47,8 @@ int replay_follow_body(struct replay *replay, char *error, size_t error_size)
                            "than the recorded one: %08x, not %08x; the log was altered",
                            (long long)trace->body, (unsigned)trace->body_checksum,
                            (unsigned)found->checksum);
-    recorded_store_give(&replay->store, &found->body);
+    if (recorded_store_give(&replay->store, &learner, tick_learner(replay->tick), &found->body,
+                            reason, sizeof reason))
+        return replay_fail(replay, error, error_size, "%s", reason);
     return 0;
 }

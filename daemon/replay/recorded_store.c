@@ -71,10 +71,18 @@ int recorded_store_follow(struct recorded_store *store, const struct learner_con
     return 0;
 }
 
-void recorded_store_give(struct recorded_store *store, const struct body *body)
+int recorded_store_give(struct recorded_store *store, const struct learner_config *config,
+                        const struct learner *learner, const struct body *body, char *error,
+                        size_t error_size)
 {
-    store->body = *body;
-    store->give = true;
+    if (create_learner(store, config, error, error_size))
+        return -1;
+    model_capture(&store->model, learner);
+    if (learner_load(store->learner, store->model.bytes, store->model.size, error, error_size) ||
+        learner_give_body(store->learner, body, error, error_size))
+        return -1;
+    store->take = true;
+    return 0;
 }
 
 void recorded_store_close(struct recorded_store *store)
@@ -116,7 +124,6 @@ static enum model_result poll_recorded(void *context, struct learner **learner)
 {
     struct recorded_store *store = context;
     struct learner *old = *learner;
-    char ignored[160]; /* a body that is refused shows in what the tick sends */
 
     store->ready = store->moment.ready;
     if (store->take) {
@@ -124,9 +131,6 @@ static enum model_result poll_recorded(void *context, struct learner **learner)
         store->learner = old;
         store->take = false;
     }
-    if (store->give)
-        learner_give_body(*learner, &store->body, ignored, sizeof ignored);
-    store->give = false;
     return store->moment.result;
 }
 

@@ -20,10 +20,8 @@ struct recorded_store {
     struct arena *arena;     /* of what follows, once a model is needed */
     struct learner *learner; /* that models are read into */
     struct model_bytes model;
-    uint64_t hash;    /* of what the control step's learner was given whole */
-    bool take;        /* `learner` changes places with the control step's at the next poll */
-    struct body body; /* what the control step's learner gets at the next poll, */
-    bool give;        /* if it does */
+    uint64_t hash; /* of what the control step's learner was given whole */
+    bool take;     /* `learner` changes places with the control step's at the next poll */
     struct model_moment moment;
     bool ready; /* a save or load can begin */
 };
@@ -38,8 +36,11 @@ int recorded_store_open(struct recorded_store *store, const struct learner_confi
 int recorded_store_follow(struct recorded_store *store, const struct learner_config *config,
                           const struct model_moment *moment, char *error, size_t error_size);
 
-/* The body that the learner was given in the tick ahead. */
-void recorded_store_give(struct recorded_store *store, const struct body *body);
+/* The control step's learner was given this body in the tick ahead: one that is equal and stands on
+ * it will change places with it. Returns as above. */
+int recorded_store_give(struct recorded_store *store, const struct learner_config *config,
+                        const struct learner *learner, const struct body *body, char *error,
+                        size_t error_size);
 
 /* The run is over: frees what it had; the next may be opened. */
 void recorded_store_close(struct recorded_store *store);
