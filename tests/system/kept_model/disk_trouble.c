@@ -23,7 +23,7 @@ static uint64_t samples_then;
 static void mount_small_disk(const struct trial *trial)
 {
     if (unshare(CLONE_NEWNS) || mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) ||
-        mount("none", trial->directory, "tmpfs", 0, "size=2m")) {
+        mount("none", trial->directory, "tmpfs", 0, "size=8m")) {
         perror("disk_trouble: cannot mount a file system");
         exit(1);
     }
