@@ -152,16 +152,24 @@ static void read_only_directory(struct trial *trial)
     puts("a read-only directory: the model is used, control goes on");
 }
 
-/* Starts a daemon that must refuse. */
-static void refuses(struct trial *trial, const char *option, const char *value, const char *why)
+/* One option more. Returns where it is. */
+static int add_option(struct trial *trial, const char *option, const char *value)
 {
-    struct reachd_process other = trial->daemon;
     int n = 0;
 
     while (trial->options[n])
         n++;
     trial->options[n] = option;
     trial->options[n + 1] = value;
+    return n;
+}
+
+/* Starts a daemon that must refuse. */
+static void refuses(struct trial *trial, const char *option, const char *value, const char *why)
+{
+    struct reachd_process other = trial->daemon;
+    int n = add_option(trial, option, value);
+
     reachd_process_start(&other);
     for (int i = 0; i < 1000 && !reachd_process_ended(&other); i++)
         usleep(10000);
@@ -198,6 +206,7 @@ static void damaged_journal(struct trial *trial)
              "printf '\\377' | dd of=$(ls %s/*.journal | tail -1) bs=1 seek=60 conv=notrunc "
              "status=none",
              trial->directory);
+    add_option(trial, "--set", "model.snapshot=1000"); /* so that it is not empty */
     trial_start(trial);
     live_until(trial, stores_some, "nothing is stored");
     reachd_process_end(&trial->daemon, SIGTERM);
