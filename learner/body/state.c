@@ -1,6 +1,6 @@
 /* The state as bytes, and back: the body, the contexts with what they keep, the samples that wait
- * for a body, and the mixture that answers meanwhile. Its size depends on the mixture's experts
- * alone. */
+ * for a body, and the mixture that answers meanwhile: once there is a body, zeros of a mixture
+ * without experts. Its size depends on the mixture's experts alone. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,8 +77,8 @@ void body_save(const void *self, unsigned char *buffer)
 {
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
-    double head[4] = {learner->found, learner->contexts->n, learner->meanwhile->state.M,
-                      learner->contexts->births};
+    int meanwhile = learner->found ? 0 : learner->meanwhile->state.M;
+    double head[4] = {learner->found, learner->contexts->n, meanwhile, learner->contexts->births};
     double numbers[BODY_NUMBERS];
 
     write_numbers(&writer, 4, head);
@@ -87,7 +87,10 @@ void body_save(const void *self, unsigned char *buffer)
     for (int j = 0; j < CONTEXTS_ROOM; j++)
         write_context(&writer, &learner->contexts->design, &learner->contexts->context[j]);
     write_kept(&writer, &learner->waiting);
-    learner_imle_ops.save(learner->meanwhile, writer.to);
+    if (learner->found)
+        memset(writer.to, 0, learner_imle_ops.state_size(learner->meanwhile, 0));
+    else
+        learner_imle_ops.save(learner->meanwhile, writer.to);
 }
 
 /* Counts stay whole numbers up to here; no robot offers as many samples. */
@@ -266,13 +269,17 @@ int body_load(void *self, int n_experts, const unsigned char *buffer, char *err,
     struct reader look = {buffer, true, false};
     struct reader take = {buffer, true, true};
     struct contexts *contexts = learner->contexts;
+    double first = 0.0;
     int meanwhile = read_all(&look, learner);
 
-    if (!look.fits || meanwhile != n_experts) {
+    memcpy(&first, buffer, sizeof first);
+    bool found = first >= 1.0;
+    if (!look.fits || meanwhile != n_experts || (found && n_experts != 0)) {
         snprintf(err, err_size, "it holds numbers that no state can have");
         return -1;
     }
-    if (learner_imle_ops.load(learner->meanwhile, n_experts, look.from, err, err_size) != 0)
+    if (!found &&
+        learner_imle_ops.load(learner->meanwhile, n_experts, look.from, err, err_size) != 0)
         return -1;
     read_all(&take, learner);
     if (!learner->found)
