@@ -104,7 +104,7 @@ def _verdict(row: dict) -> str:
     return f"{words} ({row['draws_met']} of {len(row['values'])})"
 
 
-HEADS = ("study", "", "body", "spread", "polynomials", "at most", "")
+HEADS = ("study", "", "body", "median, spread", "polynomials", "at most", "")
 
 
 def cells_of(rows: list[dict]) -> list[list[str]]:
@@ -113,6 +113,7 @@ def cells_of(rows: list[dict]) -> list[list[str]]:
         first = row["what"] if row["study"] != named else ""
         named = row["study"]
         spread = f"{_short(min(row['values']))} .. {_short(max(row['values']))}"
+        spread = f"{_short(row['median'])}, {spread}"
         cells.append([first, row["metric"], f"{_short(row['mean'])} {row['unit']}", spread,
                       _short(row["polynomial"]), _wanted(row), _verdict(row)])  # fmt: skip
     return cells
@@ -126,7 +127,7 @@ def table(rows: list[dict]) -> str:
 def _page(summary: dict) -> str:
     cells = [[escape(cell) for cell in cells] for cells in cells_of(summary["rows"])]
     subtitle = (f"commit {summary['commit'][:12]}, seeds {', '.join(map(str, summary['seeds']))};"
-                " mean over the draws, then least and greatest; RMSE a coordinate")  # fmt: skip
+                " mean, median, least and greatest of the draws; RMSE a coordinate")  # fmt: skip
     return page.whole("The learner on a body that it found", subtitle, [page.table(HEADS, cells)])
 
 
@@ -140,7 +141,7 @@ def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
             raise EvaluationError(f"{without[0]} wants --data DIR, the reference data")
         return chosen
     return [study for study in every
-            if (study.quick or not options.quick)
+            if study.kept and (study.quick or not options.quick)
             and (options.data is not None or not study.wants_data)]  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .body_data import data_studies
+from .body_limits import limit_studies
 from .body_stream import HAND, NO_BAR, STICK, BodyStudy, Stream, strongest
 from .body_trouble import trouble_studies
 from .screws import franka_like, sweeps, ten_joints
@@ -177,4 +178,5 @@ def _studies_of_learning() -> list[BodyStudy]:
 
 
 def body_studies(data: Path | None = None) -> list[BodyStudy]:
-    return [*_studies_of_learning(), *trouble_studies(), *data_studies(data)]
+    learning = [*_studies_of_learning(), *trouble_studies(), *data_studies(data)]
+    return [*learning, *limit_studies()]
