@@ -7,8 +7,10 @@
 #include "daemon/control/model_port.h"
 #include "learner/store/store.h"
 
-/* The model.* options, for the store. Points into `config`. */
-struct model_store_settings model_of_store_settings(const struct config *config);
+/* The model.* options, for the store, and who finds bodies for it, NULL = nobody. Points into
+ * `config`. */
+struct model_store_settings model_of_store_settings(const struct config *config,
+                                                    const struct finder_port *finder);
 
 /* `store` stays the caller's. */
 struct model_port model_of_store(struct model_store *store);

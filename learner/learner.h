@@ -85,6 +85,10 @@ struct learner_body_config {
     enum learner_body_space space; /* LEARNER_BODY_PLACE */
     bool degrees;                  /* yaw and pitch are in degrees; false */
     int starts;                    /* most random starts of one search, >= 1; 40 */
+    /* Which input each joint is, from the base to the tip, counted from 0; 0, 1, 2, ... */
+    int order[LEARNER_MAX_INPUTS];
+    double noise_share; /* variance of the samples' noise in units of psi0, which the
+                           search reckons with; 0 = noise_share below */
 };
 
 /* Every parameter. learner_config_default() fills all rows but psi0 and

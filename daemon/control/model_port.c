@@ -8,6 +8,11 @@ static bool take_note_of_nothing(void *context, const double *z, const double *x
     return true;
 }
 
+static void take_notice_of_nothing(void *context, const struct learner *learner)
+{
+    (void)context, (void)learner;
+}
+
 static bool is_never(const void *context)
 {
     (void)context;
@@ -40,6 +45,7 @@ static struct model_report empty_report(const void *context)
 
 static const struct model_port_ops none = {
     .note = take_note_of_nothing,
+    .learned = take_notice_of_nothing,
     .full = is_never,
     .works = is_never,
     .begin_save = cannot_begin,

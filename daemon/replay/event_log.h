@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 enum {
-    EVENT_LOG_MOST = 32 * 1024, /* bytes of a message that is kept; all of ours are smaller */
+    EVENT_LOG_MOST = 64 * 1024, /* bytes of a message that is kept; all that matter are smaller */
     EVENT_LOG_CHANNEL = 64,     /* of a channel's name, with its terminator */
 };
 

@@ -95,7 +95,7 @@ void body_write_urdf(const struct body *body, FILE *stream)
 
 void body_write_dh(const struct body *body, FILE *stream)
 {
-    struct dh dh;
+    struct dh dh = {0};
 
     dh_of_chain(&body->chain, &dh);
     fprintf(stream, "# T = Rot(z, theta + q) Trans(z, d) Trans(x, a) Rot(x, alpha); deg, %s\n",
