@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from ..programs import BINARIES, LEARNERS, POLYNOMIAL, ROOT
+from ..programs import BINARIES, LEARNERS, OURS, ROOT
 
 
 class ReplayError(Exception):
@@ -22,8 +22,8 @@ class ReplayError(Exception):
 
 @dataclass(frozen=True)
 class Robot:
-    """Configuration of the daemon, that of other learners after it, and which of its options is the
-    noise of each output."""
+    """Configuration of the daemon, that of learners other than ours after it, and which of its
+    options is the noise of each output."""
 
     configuration: Path
     overlays: dict[str, Path]
@@ -32,12 +32,12 @@ class Robot:
 
 KOBIAN = Robot(
     ROOT / "etc/kobian.yaml",
-    {"imle": POLYNOMIAL, **LEARNERS},
+    LEARNERS,
     ("noise_angle", "noise_angle", "noise_disparity"),
 )
 ICUB = Robot(
     ROOT / "etc/icub.yaml",
-    {"imle": POLYNOMIAL, **{name: ROOT / f"etc/icub-{name}.yaml" for name in LEARNERS}},
+    LEARNERS | {name: ROOT / f"etc/icub-{name}.yaml" for name in ("linear", "lwpr")},
     ("noise_position",) * 3,
 )
 
@@ -58,9 +58,20 @@ def options(robot: Robot, learner: str) -> dict:
 
 
 def overlays(robot: Robot, learner: str) -> list[Path]:
-    """Configuration of the daemon after the robot's. The paper's robots learn from features of the
-    joints alone, so no learner here has a body."""
-    return [robot.overlays[learner]]
+    """Configuration of the daemon after the robot's."""
+    return [] if learner == OURS else [robot.overlays[learner]]
+
+
+def learners(robot: Robot) -> tuple[str, ...]:
+    return (OURS, *robot.overlays)
+
+
+def input_order(given: dict, n_inputs: int) -> list[int]:
+    """Inputs in the order in which reach-eval gets them: experts on a body want the joints from the
+    base to the tip, and the daemon's option that says so is none of reach-eval's."""
+    has_body = given["kind"] == "imle" and given["experts"] == "body"
+    order = given.get("body.order") if has_body else None
+    return [number - 1 for number in order] if order else list(range(n_inputs))
 
 
 def _flat(nested: dict, prefix: str = "") -> dict:
@@ -80,7 +91,10 @@ def parameters(robot: Robot, given: dict) -> list[str]:
     result = {
         "psi0": [_radians(name, given[name]) ** 2 for name in robot.noise],
         "sigma0": float(given["reach"]) ** 2,
-        "reference": [float(np.radians(float(angle))) for angle in given["reference"]],
+        "reference": [
+            float(np.radians(float(given["reference"][i])))
+            for i in input_order(given, len(given["reference"]))
+        ],
     }
     if is_lwpr:
         result["lwpr.norm_out"] = [_radians(name, given[name]) for name in norms]
@@ -125,16 +139,19 @@ def curve(robot: Robot, learner: str, phases: list[np.ndarray], tests: dict[str,
     given = options(robot, learner)
     n_outputs = len(robot.noise)
     n_inputs = phases[0].shape[1] - n_outputs
+    columns = [*input_order(given, n_inputs), *range(n_inputs, n_inputs + n_outputs)]
     with tempfile.TemporaryDirectory(prefix="reach-replay-") as name:
         folder = Path(name)
-        train = [_write(folder / f"train{i}.csv", rows) for i, rows in enumerate(phases)]
+        train = [
+            _write(folder / f"train{i}.csv", rows[:, columns]) for i, rows in enumerate(phases)
+        ]
         report = folder / "report.json"
         command = [BINARIES / "reach-eval", "--learner", given["kind"], "--quiet",
                    "--inputs", n_inputs, "--outputs", n_outputs, "--config", _empty(folder),
                    "--train", ",".join(map(str, train)), "--at", ",".join(map(str, at)),
                    "--json", report]  # fmt: skip
         for key, rows in tests.items():
-            command += ["--test", f"{key}={_write(folder / f'{key}.csv', rows)}"]
+            command += ["--test", f"{key}={_write(folder / f'{key}.csv', rows[:, columns])}"]
         command += [word for text in parameters(robot, given) for word in ("--param", text)]
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         if done.returncode != 0:
