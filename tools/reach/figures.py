@@ -9,13 +9,21 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from . import metrics, summary
+from .programs import OURS
 from .record import Record
 
 COLOURS = {"hand": "#1f5fa8", "tool": "#b8500f"}
+# Dashes tell them apart without colour.
+LEARNERS = {
+    OURS: {"color": "#1f5fa8", "ls": "-"},
+    "polynomial": {"color": "#b06a00", "ls": "-."},
+    "linear": {"color": "#2f8f5b", "ls": "--"},
+    "lwpr": {"color": "#b3261e", "ls": ":"},
+}
 PAPER = "#777777"
 COMPONENTS = ("yaw, deg", "pitch, deg", "disparity, px")
 JOINTS = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow", "neck yaw", "neck pitch")
-WINDOW = 10  # samples of the running error
+WINDOWS = 3, 10  # samples of the running error: a tenth of a phase's, within these bounds
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 10,
@@ -89,7 +97,7 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
         error = metrics.to_people(rows["x_predicted"]) - metrics.to_people(rows["x"])
         last = first + len(rows)
         numbers = np.arange(first + 1, last + 1)
-        running = metrics.running_rms(error, WINDOW)
+        running = metrics.running_rms(error, int(np.clip(len(rows) // 10, *WINDOWS)))
         for component, axis in enumerate(axes[:, 0]):
             colour = COLOURS[name]
             axis.plot(numbers, np.abs(error[:, component]), ".", color=colour, alpha=0.35, ms=3)

@@ -74,10 +74,11 @@ class Replay(unittest.TestCase):
         given = replay.options(replay.KOBIAN, learner)
         return dict(text.split("=", 1) for text in replay.parameters(replay.KOBIAN, given))
 
-    def test_standard_deviations_become_variances_in_radians(self):
+    def test_standard_deviations_become_variances(self):
         values = self.of("body")
         psi = [float(v) for v in values["psi0"].strip("[]").split(",")]
-        np.testing.assert_allclose(psi, [np.radians(0.5) ** 2] * 2 + [9])
+        np.testing.assert_allclose(psi, [0.25, 0.25, 9])
+        self.assertEqual(values["body.degrees"], "true")
         self.assertAlmostEqual(float(values["sigma0"]), 3.16**2)
         self.assertEqual((values["experts"], values["body.space"]), ("body", "eyes"))
         self.assertEqual(self.of("polynomial")["experts"], "polynomial")
@@ -91,7 +92,7 @@ class Replay(unittest.TestCase):
         values = self.of("lwpr")
         self.assertEqual(values["lwpr.max_projections"], "4")
         norms = [float(v) for v in values["lwpr.norm_out"].strip("[]").split(",")]
-        np.testing.assert_allclose(norms, [np.radians(1)] * 2 + [3])
+        np.testing.assert_allclose(norms, [1, 1, 3])
         self.assertNotIn("lwpr.w_gen", self.of("body"))
 
     def test_counts_end_with_all_and_begin_anew_with_each_phase(self):

@@ -13,13 +13,7 @@ from . import series
 
 COLOURS = figures.COLOURS
 MEASURED = "#b5b5b5"
-# Dashes tell them apart without colour.
-LEARNERS = {
-    OURS: {"color": "#1f5fa8", "ls": "-"},
-    "polynomial": {"color": "#b06a00", "ls": "-."},
-    "linear": {"color": "#2f8f5b", "ls": "--"},
-    "lwpr": {"color": "#b3261e", "ls": ":"},
-}
+LEARNERS = figures.LEARNERS
 LEARNER_WORDS = {OURS: "ours", "polynomial": "polynomials", "linear": "IMLE as published",
                  "lwpr": "LWPR"}  # fmt: skip
 
