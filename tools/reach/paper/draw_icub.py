@@ -56,11 +56,12 @@ def _cube(axis, data: Data, name: str, learner: str, title: str) -> None:
 
 
 def cubes(*shown: tuple[str, str, str]):
-    """(series, learner, title) side by side."""
+    """(series, learner, title), two in a row."""
 
     def draw(data: Data):
-        figure, axes = canvas(1, len(shown), 3.6, subplot_kw={"projection": "3d"})
-        for axis, (name, learner, title) in zip(axes[0], shown, strict=True):
+        rows = (len(shown) + 1) // 2
+        figure, axes = canvas(rows, 2, 3.6 * rows, subplot_kw={"projection": "3d"})
+        for axis, (name, learner, title) in zip(axes.flat, shown, strict=True):
             _cube(axis, data, name, learner, title)
         return figure
 

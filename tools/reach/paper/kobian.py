@@ -23,7 +23,7 @@ PREPARE_SECONDS = 4.0  # robot time before the first target, about; for the time
 _FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2.0,
          "star_seconds": 4.0}  # fmt: skip
 _QUICK = {"hand": 30, "tool": 10, "again": 5, "tests": 5, "turn_seconds": 1.15,
-          "star_seconds": 1.5}  # fmt: skip
+          "star_seconds": 2.2}  # fmt: skip
 _QUICK_RIVAL = {"hand": 8, "tool": 8, "again": 2, "tests": 2, "turn_seconds": 1.15,
                 "star_seconds": 0.8}  # fmt: skip
 

@@ -39,7 +39,7 @@ class Practice:
 
     def settings(self, quick: bool, learner: str) -> dict:
         """Babbled samples, and seconds for each target."""
-        return {"samples": 3, "seconds": 1.2 if quick else 3.0}
+        return {"samples": 3, "seconds": 1.5 if quick else 3.0}
 
     def overlays(self, learner: str) -> list[Path]:
         return [ROOT / "etc/practice.yaml"] if self.allowed else []
