@@ -246,7 +246,8 @@ void model_store_tell_if_asked(struct model_store *store)
 /* Instead of what was found, or is still looked for: a body without joints. */
 static void give_none(struct model_store *store)
 {
-    model_store_drop_search(store);
+    model_store_begin_with(store);
+    end_search(store, MODEL_STORE_NO_SEARCH);
     memset(&store->search.answer, 0, sizeof store->search.answer);
     log_info("the body is forgotten; the search begins anew with the samples that are kept");
 }
