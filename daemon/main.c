@@ -2,6 +2,7 @@
 #include "common/base/arena.h"
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
+#include "daemon/body_start.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
 #include "daemon/control/tick.h"
@@ -33,6 +34,7 @@ struct reachd {
     struct bus_claim *claim;
     struct arena *arena;
     struct finder_of_bus finder;
+    struct body body_start;
     struct model_store *store;
     struct tick *tick;
     struct daemon_bus *bus;
@@ -94,11 +96,14 @@ static int check_model_directory(const struct config *config, char *error, size_
 /* The control step, and who keeps its model, from which it goes on. */
 static int build_tick(struct reachd *reachd, char *error, size_t error_size)
 {
-    const struct model_store_settings settings =
-        model_of_store_settings(&reachd->config, &reachd->finder.port);
     struct tick_settings tick = {.config = &reachd->config};
+    struct model_store_settings settings;
+    const struct body *start;
 
     finder_of_bus_init(&reachd->finder);
+    if (body_start_read(&reachd->config, &reachd->body_start, &start, error, error_size))
+        return -1;
+    settings = model_of_store_settings(&reachd->config, &reachd->finder.port, start);
     reachd->store = model_store_create(&settings, reachd->arena, error, error_size);
     if (!reachd->store)
         return -1;
@@ -163,7 +168,7 @@ static struct reload reload_of(const struct reachd *reachd)
 
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = model_of_store_settings(config, NULL);
+    const struct model_store_settings settings = model_of_store_settings(config, NULL, NULL);
 
     if (model_store_check(&settings, error, error_size))
         return -1;

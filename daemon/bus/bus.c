@@ -226,6 +226,11 @@ void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *req
     reach_body_request_t_publish(bus->lcm, "REACH_BODY_REQUEST", request);
 }
 
+void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message)
+{
+    reach_body_t_publish(bus->lcm, "REACH_BODY_IN_USE", message);
+}
+
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)
 {
     struct timespec end;
