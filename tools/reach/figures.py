@@ -88,6 +88,10 @@ def result(record: Record, run: dict, folder: Path) -> Figure | None:
     return figure
 
 
+def window(samples: int) -> int:
+    return int(np.clip(samples // 10, *WINDOWS))
+
+
 def learning(record: Record, run: dict, result: dict) -> Figure:
     """Errors of predictions made before each sample was learned, and those of the test sets."""
     figure, axes = canvas(3, 1, 6.6, sharex=True)
@@ -97,7 +101,7 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
         error = metrics.to_people(rows["x_predicted"]) - metrics.to_people(rows["x"])
         last = first + len(rows)
         numbers = np.arange(first + 1, last + 1)
-        running = metrics.running_rms(error, int(np.clip(len(rows) // 10, *WINDOWS)))
+        running = metrics.running_rms(error, window(len(rows)))
         for component, axis in enumerate(axes[:, 0]):
             colour = COLOURS[name]
             axis.plot(numbers, np.abs(error[:, component]), ".", color=colour, alpha=0.35, ms=3)
