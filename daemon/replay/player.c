@@ -1,10 +1,10 @@
 #include "daemon/replay/player.h"
 
 #include "common/bus/open.h"
+#include "common/logs/event_log.h"
 #include "common/program/log.h"
 #include "common/program/version.h"
 #include "daemon/bus/outgoing.h"
-#include "daemon/replay/event_log.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -37,74 +37,80 @@ static int take_configs(struct event_log *log, struct replay *replay, char *erro
 {
     const char *wanted = replay_channels[REPLAY_CONFIG];
     struct event event;
+    int result;
 
-    while (event_log_next(log, &event, error, error_size) > 0)
+    while ((result = event_log_next(log, &event, error, error_size)) > 0)
         if (event.data && strcmp(event.channel, wanted) == 0 &&
             replay_take(replay, event.channel, event.data, event.size, event.position, error,
                         error_size))
             return -1;
-    /* What is wrong with the log is said where the replay comes to it. */
-    rewind(log->file);
-    log->position = 0;
-    return 0;
+    event_log_rewind(log);
+    return result;
 }
 
-static int replay_events(struct event_log *log, struct replay *replay, char *error,
-                         size_t error_size)
+/* Where the log is damaged, and how far it reaches when its logger was killed. */
+static void say_skipped(const char *path, const struct event *event, bool at_end)
+{
+    if (event->skipped == 0)
+        return;
+    if (at_end)
+        log_warning("%s: the log ends within an event, at byte %lld; all before it was replayed",
+                    path, (long long)(event->position - event->skipped));
+    else
+        log_warning("%s: %lld bytes from byte %lld on are no event of an LCM log; they were left "
+                    "out",
+                    path, (long long)event->skipped, (long long)(event->position - event->skipped));
+}
+
+static int replay_events(const char *path, struct event_log *log, struct replay *replay,
+                         char *error, size_t error_size)
 {
     struct event event;
+    int64_t events = 0;
     int result;
 
     if (take_configs(log, replay, error, error_size))
         return -1;
-    while ((result = event_log_next(log, &event, error, error_size)) > 0)
+    while ((result = event_log_next(log, &event, error, error_size)) > 0) {
+        events++;
+        say_skipped(path, &event, false);
         if (event.data && replay_take(replay, event.channel, event.data, event.size, event.position,
                                       error, error_size))
             return -1;
-    if (result == 0 && replay_report(replay)->ticks == 0) {
-        snprintf(error, error_size, "there is no REACH_TRACE in it, so there is nothing to replay");
-        return -1;
     }
-    return result;
-}
-
-static int replay_file(FILE *file, const struct replay_settings *settings, char *error,
-                       size_t error_size)
-{
-    struct event_log *log = calloc(1, sizeof *log);
-    struct replay *replay = replay_create(settings);
-    int64_t begin = bus_monotonic_us();
-    int result = -1;
-
-    if (log && replay) {
-        log->file = file;
-        result = replay_events(log, replay, error, error_size);
-        say_revision(replay_report(replay));
-        if (result == 0)
-            print_report(replay_report(replay), (double)(bus_monotonic_us() - begin) * 1e-6,
-                         settings->verify);
-    } else
-        snprintf(error, error_size, "out of memory");
-    replay_destroy(replay);
-    free(log);
-    return result;
+    if (result < 0)
+        return -1;
+    if (events > 0)
+        say_skipped(path, &event, true);
+    if (replay_report(replay)->ticks > 0)
+        return 0;
+    snprintf(error, error_size, "there is no %s in it, so there is nothing to replay",
+             events > 0 ? "REACH_TRACE" : "event of an LCM log");
+    return -1;
 }
 
 int player_play_log(const char *path, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
-    FILE *file = fopen(path, "rb");
-    char reason[512];
-    int result;
+    struct event_log *log = event_log_open(path, EVENT_LOG_KEEP_OURS, error, error_size);
+    struct replay *replay = log ? replay_create(settings) : NULL;
+    int64_t begin = bus_monotonic_us();
+    char reason[512] = "out of memory";
+    int result = -1;
 
-    if (!file) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+    if (!log)
         return -1;
+    if (replay) {
+        result = replay_events(path, log, replay, reason, sizeof reason);
+        say_revision(replay_report(replay));
     }
-    result = replay_file(file, settings, reason, sizeof reason);
-    if (result)
+    if (result == 0)
+        print_report(replay_report(replay), (double)(bus_monotonic_us() - begin) * 1e-6,
+                     settings->verify);
+    else
         snprintf(error, error_size, "%s: %s", path, reason);
-    fclose(file);
+    replay_destroy(replay);
+    event_log_close(log);
     return result;
 }
 

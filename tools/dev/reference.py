@@ -25,6 +25,7 @@ PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reachctl": None,
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,
+    "reach-log": None,
     "reach-spy": None,
     "reach-lcm-setup": None,
 }

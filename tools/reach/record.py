@@ -1,19 +1,21 @@
 """Reads an LCM log into one structured array a channel."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from . import messages
-from .event_log import events
+from .event_log import Gap, events, told
 
 
 class Record:
     """What was said on the bus. `record["MARKER"]["u_right"]` is a column; rows are in order."""
 
-    def __init__(self, channels: dict[str, np.ndarray], refused: int):
+    def __init__(self, channels: dict[str, np.ndarray], refused: int, gaps: list[Gap]):
         self._channels = channels
         self.refused = refused  # messages of ours that could not be read
+        self.gaps = gaps  # bytes of the log that are no event
 
     def __getitem__(self, channel: str) -> np.ndarray:
         return self._channels[channel]
@@ -30,15 +32,16 @@ class Record:
 
 
 def read_log(path: Path) -> Record:
-    """Every message of a known channel; one whose fingerprint or size is wrong is counted."""
+    """Every message of a known channel; one whose fingerprint or size is wrong is counted. Bytes
+    that are no event are in the record's `gaps`, and a warning tells of them."""
     dtypes = {channel: messages.dtype_of(name) for channel, name in messages.CHANNELS.items()}
     prints = {
         channel: getattr(messages.reach, name)._get_packed_fingerprint()
         for channel, name in messages.CHANNELS.items()
     }
     chunks: dict[str, list[bytes]] = {channel: [] for channel in dtypes}
-    refused = 0
-    for event in events(path):
+    refused, gaps = 0, []
+    for event in events(path, gaps):
         dtype = dtypes.get(event.channel)
         if dtype is None:
             continue
@@ -46,7 +49,9 @@ def read_log(path: Path) -> Record:
             chunks[event.channel].append(event.data)
         else:
             refused += 1
-    return Record({c: _columns(chunks[c], dtypes[c]) for c in dtypes}, refused)
+    if gaps:
+        warnings.warn(f"{path}: {told(gaps)}", stacklevel=2)
+    return Record({c: _columns(chunks[c], dtypes[c]) for c in dtypes}, refused, gaps)
 
 
 def _columns(chunks: list[bytes], dtype: np.dtype) -> np.ndarray:
