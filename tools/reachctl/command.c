@@ -139,10 +139,18 @@ static int fill_until(const struct context *context)
     return 0;
 }
 
+static int fill_echo(const struct context *context)
+{
+    context->call->channel = context->arguments[0];
+    return 0;
+}
+
 static const struct command looking_commands[] = {
     {"status", "", 0, CALL_STATUS, 0, NULL, "show the state of the daemon; --json: for programs"},
     {"top", "", 0, CALL_TOP, 0, NULL,
      "show what is on the bus until q is pressed; --once: one frame"},
+    {"echo", "CHANNEL", 1, CALL_ECHO, 0, fill_echo,
+     "print what is said on CHANNEL, a line of JSON a message; --once: one message"},
     {"doctor", "", 0, CALL_DOCTOR, 0, NULL,
      "find what is wrong with this machine or the bus; --json: for programs"},
     {0}};
