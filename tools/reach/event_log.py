@@ -17,6 +17,7 @@ _HEADER = struct.Struct(">4sqqII")  # mark, number, us since the epoch, lengths 
 _LONGEST_CHANNEL = 999
 _LARGEST_MESSAGE = 1 << 28
 _CHUNK = 1 << 20
+_MOST_NAMES = 10_000  # that are kept
 
 
 class Event(NamedTuple):
@@ -56,6 +57,7 @@ class _Reader:
         self._size = os.fstat(file.fileno()).st_size
         self._gaps = gaps
         self._window, self._at = b"", 0
+        self._names: dict[bytes, str] = {}  # channels so far
 
     def _look(self, at: int, size: int) -> int:
         """Makes the window hold so much from `at` on, or what there is; returns where `at` is."""
@@ -69,7 +71,7 @@ class _Reader:
     def events(self) -> Iterator[Event]:
         at = end = 0  # of the next event, of the newest one
         while at < self._size:
-            found = self._event(at)
+            found = self._event_in_window(at) or self._event(at)
             if found is None:
                 at = self._next_mark(at + 1)
                 continue
@@ -80,6 +82,28 @@ class _Reader:
             yield event
         if self._size > end:
             self._gaps.append(Gap(end, self._size - end, True))
+
+    def _event_in_window(self, at: int) -> tuple[Event, int] | None:
+        """As below, of events that lie in the window with the next one's mark: nearly all."""
+        window, place = self._window, at - self._at
+        if not 0 <= place <= len(window) - _HEADER.size:
+            return None
+        mark, _, stamp, name, size = _HEADER.unpack_from(window, place)
+        middle = place + _HEADER.size + name
+        end = middle + size
+        if mark != _MARK or not 0 < name <= _LONGEST_CHANNEL or window[end : end + 4] != _MARK:
+            return None
+        channel = self._name(window[middle - name : middle])
+        return (Event(stamp, channel, window[middle:end]), self._at + end) if channel else None
+
+    def _name(self, name: bytes) -> str:
+        """The channel's; "" when it is none."""
+        known = self._names.get(name)
+        if known is None:
+            known = "" if b"\0" in name else name.decode(errors="backslashreplace")
+            if len(self._names) < _MOST_NAMES:
+                self._names[name] = known
+        return known
 
     def _event(self, at: int) -> tuple[Event, int] | None:
         """The event that begins there, and where it ends."""
@@ -93,11 +117,11 @@ class _Reader:
         if not self._ends(end):
             return None
         start = self._look(at, end - at) + _HEADER.size
-        channel = self._window[start : start + name]
+        channel = self._name(self._window[start : start + name])
         data = self._window[start + name : start + name + size]
-        if len(data) < size or b"\0" in channel:
+        if len(data) < size or not channel:
             return None
-        return Event(stamp, channel.decode(errors="backslashreplace"), data), end
+        return Event(stamp, channel, data), end
 
     def _ends(self, at: int) -> bool:
         """Whether an event that ends there is followed by the next one, or by the end. A length may
