@@ -186,6 +186,9 @@ const unsigned char *event_log_bytes(struct event_log *log, const struct event *
 void event_log_rewind(struct event_log *log)
 {
     log->next = 0;
+    free(log->window);
+    log->window = NULL;
+    log->capacity = log->filled = 0;
 }
 
 static int write_all(int to, const unsigned char *bytes, size_t size)

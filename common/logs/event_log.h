@@ -38,7 +38,7 @@ struct event {
 struct event_log *event_log_open(const char *path, size_t keep, char *error, size_t error_size);
 void event_log_close(struct event_log *log);
 
-/* From the beginning again. */
+/* From the beginning again; gives back memory until then. */
 void event_log_rewind(struct event_log *log);
 
 /* Returns 1 with the next event; 0 at the end, with `position` and `skipped` of *event set; or -1

@@ -68,7 +68,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *path = harness_file(data, size);
     char error[512] = "";
 
-    if (player_play_log(path, &settings, error, sizeof error))
+    if (player_play_log(&path, 1, &settings, error, sizeof error))
         HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
     replay_made_right(path);
     return 0;
