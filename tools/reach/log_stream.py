@@ -60,11 +60,16 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun}{'s' * (n != 1)}"
 
 
+def printable(name: str) -> str:
+    """A name from a log, for a terminal: what could command it is escaped."""
+    return "".join(c if " " <= c <= "~" else f"\\x{ord(c):02x}" for c in name)
+
+
 def told_of(what: str, counter: Counter) -> list[str]:
     """A line that names the channels and how many messages each has; none where there are none."""
     if not counter:
         return []
-    named = [f"{n} {channel}" for channel, n in counter.most_common(10)]
+    named = [f"{n} {printable(channel)}" for channel, n in counter.most_common(10)]
     more = ", ..." if len(counter) > 10 else ""
     return [f"{counted(counter.total(), 'message')} {what}: {', '.join(named)}{more}"]
 
