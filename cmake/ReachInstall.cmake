@@ -44,6 +44,7 @@ endfunction()
 # One line a program.
 reach_program(reachd          8 reachd)
 reach_program(reach-vision    8 reachd)
+reach_program(reach-finder    8 reachd)
 reach_program(reach-learner   8 reachd)
 reach_program(reach-simrobot  1 reach-sim)
 reach_program(reachctl        1 reach-tools)
@@ -114,7 +115,8 @@ file(READ etc/systemd/hardening.conf hardening)
 string(STRIP "${hardening}" hardening)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS etc/systemd/hardening.conf)
 set(reachd_units
-    reach.target reach-bus.service reachd.service reach-vision.service reach-learner.service)
+    reach.target reach-bus.service reachd.service reach-finder.service reach-vision.service
+    reach-learner.service)
 set(reach-sim_units reach-simrobot.service)
 set(reach-tools_units reach-lcm-setup.service)
 foreach(component reachd reach-sim reach-tools)

@@ -4,6 +4,8 @@
 
 #include <bot_core_images_t.h>
 #include <bot_core_joint_state_t.h>
+#include <reach_body_request_t.h>
+#include <reach_body_t.h>
 #include <reach_config_t.h>
 #include <reach_end_effector_t.h>
 #include <reach_hello_t.h>
@@ -38,6 +40,9 @@ static const struct message_type types[] = {
     TYPE(reach, sample_t, "REACH_SAMPLE"),
     TYPE(reach, request_t, "REACH_REQUEST"),
     TYPE(reach, config_t, "REACH_CONFIG"),
+    TYPE(reach, body_request_t, "REACH_BODY_REQUEST"),
+    TYPE(reach, body_t, "REACH_BODY"),
+    TYPE(reach, body_t, "REACH_BODY_IN_USE"),
     TYPE(reach, hello_t, "REACH_HELLO"),
     TYPE(reach, sim_request_t, "SIM_REQUEST"),
     TYPE(reach, sim_truth_t, "SIM_TRUTH"),
@@ -56,6 +61,11 @@ const struct message_type *message_type_of_channel(const char *channel)
         if (strcmp(types[i].channel, channel) == 0)
             return &types[i];
     return NULL;
+}
+
+bool message_type_same(const struct message_type *a, const struct message_type *b)
+{
+    return a->info == b->info;
 }
 
 const struct message_type *message_type_of(const void *data, size_t size)

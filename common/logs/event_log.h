@@ -16,7 +16,7 @@ enum {
     EVENT_LOG_CHANNEL = 1000,       /* of a channel's name, with its terminator */
     EVENT_LOG_MESSAGE = 1 << 28,    /* bytes; no message of LCM is larger */
     EVENT_LOG_KEEP_ALL = 1 << 28,   /* for event_log_open */
-    EVENT_LOG_KEEP_OURS = 32 * 1024 /* all of our messages but images are smaller */
+    EVENT_LOG_KEEP_OURS = 64 * 1024 /* all of our messages but images are smaller */
 };
 
 struct event_log;

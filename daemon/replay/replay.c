@@ -152,6 +152,7 @@ static int gather_inputs(struct replay *replay, char *error, size_t error_size)
     return follow_ticks(replay, error, error_size) ||
                    replay_follow_config(replay, error, error_size) ||
                    replay_follow_store(replay, error, error_size) ||
+                   replay_follow_body(replay, error, error_size) ||
                    give_state(replay, error, error_size) ||
                    give_observations(replay, error, error_size) ||
                    give_requests(replay, error, error_size)
@@ -253,6 +254,8 @@ int replay_take(struct replay *replay, const char *channel, const void *data, si
         recording_add(&replay->recording[index], data, size, position);
     if (index == REPLAY_CONFIG)
         take_config(replay, data, size, position);
+    if (index == REPLAY_BODY)
+        replay_take_body(replay, data, size);
     if (index != REPLAY_TRACE)
         return 0;
     replay->position = position;

@@ -23,8 +23,9 @@ enum replay_channel {
     REPLAY_STATUS,
     REPLAY_TRACE,
     REPLAY_CONFIG,
+    REPLAY_BODY,
 };
-enum { REPLAY_CHANNELS = REPLAY_CONFIG + 1 };
+enum { REPLAY_CHANNELS = REPLAY_BODY + 1 };
 
 extern const char *const replay_channels[REPLAY_CHANNELS];
 

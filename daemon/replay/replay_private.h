@@ -4,13 +4,14 @@
 #ifndef REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 #define REACH_DAEMON_REPLAY_REPLAY_PRIVATE_H
 
+#include "daemon/bus/incoming.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
 #include "daemon/replay/recorded_store.h"
 #include "daemon/replay/recording.h"
 #include "daemon/replay/replay.h"
 
-enum { REPLAY_CONFIGS = 64, REPLAY_REASON = 400, REPLAY_NEWEST = 16 };
+enum { REPLAY_CONFIGS = 64, REPLAY_BODIES = 8, REPLAY_REASON = 400, REPLAY_NEWEST = 16 };
 
 /* Messages that come on a channel of ours and have another fingerprint. */
 struct replay_foreign {
@@ -38,6 +39,8 @@ struct replay {
     int64_t n_texts;
     struct replay_foreign foreign[2]; /* traces, configurations */
     struct replay_traces traces;
+    struct received_body bodies[REPLAY_BODIES]; /* newest that were found */
+    int64_t n_bodies;
 
     /* The run. */
     struct arena *arena;
@@ -87,6 +90,13 @@ int replay_follow_config(struct replay *replay, char *error, size_t error_size);
 /* What the store said in the tick at hand; with the model, where it was loaded. Returns as above.
  */
 int replay_follow_store(struct replay *replay, char *error, size_t error_size);
+
+/* A message of reach-finder's: what was found is kept. */
+void replay_take_body(struct replay *replay, const void *data, size_t size);
+
+/* The body that the learner was given in the tick at hand, for the store to give. Returns as above.
+ */
+int replay_follow_body(struct replay *replay, char *error, size_t error_size);
 
 /* Compares what the tick sends with what it sent. Returns as above. */
 int replay_verify(struct replay *replay, char *error, size_t error_size);

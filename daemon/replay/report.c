@@ -6,7 +6,7 @@
 
 const char *const replay_channels[REPLAY_CHANNELS] = {
     "ROBOT_STATE",  "MARKER",       "END_EFFECTOR", "REACH_REQUEST", "ROBOT_COMMAND",
-    "REACH_SAMPLE", "REACH_STATUS", "REACH_TRACE",  "REACH_CONFIG",
+    "REACH_SAMPLE", "REACH_STATUS", "REACH_TRACE",  "REACH_CONFIG",  "REACH_BODY",
 };
 
 const struct replay_report *replay_report(const struct replay *replay)

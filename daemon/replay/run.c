@@ -88,6 +88,8 @@ int replay_follow_store(struct replay *replay, char *error, size_t error_size)
         .result = (enum model_result)trace->store_result,
         .ready = trace->store_ready != 0,
         .model = (uint64_t)trace->model,
+        .body = trace->body,
+        .body_checksum = (uint32_t)trace->body_checksum,
     };
     char reason[MODEL_REASON_MOST];
 

@@ -26,6 +26,7 @@ PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reach-vision": (),
     "reach-simrobot": (),
     "reach-learner": (),
+    "reach-finder": None,
     "reachctl": None,
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,

@@ -45,7 +45,7 @@ static void write_type(const struct survey_channel *channel, char *text, size_t 
     if (!channel->type)
         snprintf(text, size, "not ours (%016llx)%s", (unsigned long long)channel->fingerprint,
                  also);
-    else if (expected && expected != channel->type)
+    else if (expected && !message_type_same(expected, channel->type))
         snprintf(text, size, "%s, not %s%s", channel->type->name, expected->name, also);
     else
         snprintf(text, size, "%s%s", channel->type->name, also);

@@ -15,6 +15,7 @@ from .event_log import Event, Gap, events, told
 IMAGES = "STEREO_IMAGES"
 JOINTS = "JOINT_STATE"
 _PIECE = 4 << 20  # bytes
+_SEARCH = "REACH_BODY_REQUEST"  # repeats samples; its size varies
 _TESTS_OF_THE_BUS = re.compile(r"(REACH|LCM)_SELF_TEST.*")  # what programs send themselves
 _MOST_JOINTS = 1000
 
@@ -83,6 +84,7 @@ class Stream:
     gaps: list[Gap] = field(default_factory=list)
     refused: Counter = field(default_factory=Counter)  # channels of ours: messages of other layouts
     foreign: Counter = field(default_factory=Counter)  # channels that are not ours: messages
+    left_out: Counter = field(default_factory=Counter)  # channels of ours that no table holds
 
     def __post_init__(self):
         self._dtypes = {c: messages.dtype_of(t) for c, t in messages.CHANNELS.items()}
@@ -91,7 +93,7 @@ class Stream:
         self._joints = _print_of(messages.bot_core, "joint_state_t")
 
     def pieces(self) -> Iterator[Piece]:
-        for counter in (self.gaps, self.refused, self.foreign):
+        for counter in (self.gaps, self.refused, self.foreign, self.left_out):
             counter.clear()
         found: list[Event] = []
         size, first = 0, None
@@ -112,6 +114,7 @@ class Stream:
         """What is not in the pieces, a line each."""
         lines = [told(self.gaps)] if self.gaps else []
         lines += told_of("that cannot be read", self.refused)
+        lines += told_of("that are not exported", self.left_out)
         return lines + told_of("on channels that are not ours", self.foreign)
 
     def _piece(self, found: list[Event]) -> Piece:
@@ -126,6 +129,8 @@ class Stream:
                 piece.groups += self._joint_groups(at, found)
             elif channel == IMAGES:
                 piece.images = [(place, found[place]) for place in at]
+            elif channel == _SEARCH:
+                self.left_out[channel] += len(at)
             elif not _TESTS_OF_THE_BUS.fullmatch(channel):
                 self.foreign[channel] += len(at)
         return piece

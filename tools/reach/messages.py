@@ -22,7 +22,8 @@ except ImportError:
 
 __all__ = ["CHANNELS", "ROOT", "bot_core", "described", "dtype_of", "reach"]
 
-# Channel -> type of what a log holds. Images and JOINT_STATE, whose size varies, are apart.
+# Channel -> type of what a log holds. Images, JOINT_STATE and REACH_BODY_REQUEST, whose size
+# varies, are apart.
 CHANNELS = {
     "ROBOT_STATE": "robot_state_t",
     "ROBOT_COMMAND": "robot_command_t",
@@ -39,6 +40,8 @@ CHANNELS = {
     "LEARNER_PREDICTION": "learner_prediction_t",
     "SIM_CONTACTS": "sim_contacts_t",
     "REACH_CONFIG": "config_t",
+    "REACH_BODY": "body_t",
+    "REACH_BODY_IN_USE": "body_t",
     "REACH_HELLO": "hello_t",
 }
 

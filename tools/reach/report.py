@@ -25,7 +25,8 @@ def write(out: Path, record: Record, run: dict, result: dict) -> None:
     parts += ["<h2>The run</h2>", _phases(run)]
     title = "A robot learns its arm, a rubber tube, and reaches with both"
     subtitle = (
-        f"seed {result['seed']}, {result['learner']} experts, {run['samples']} samples each;"
+        f"seed {result['seed']}, {result['learner']} experts, {run['samples']} samples"
+        f" with the hand, {run.get('tool_samples', run['samples'])} with the tool;"
         f" {result['robot_seconds']:.0f} s of robot time in {result['wall']['seconds']:.0f} s"
         f" ({run['clock']} clock)"
     )
@@ -94,6 +95,8 @@ def _rows(result: dict) -> list[tuple]:
     wrong = result["wrong_frames"] / max(1, result["frames"])
     return [
         *rows,
+        ("body: samples it was found from; error, of the noise; searches", "",
+         _body(result["body"]), None),
         ("experts; solutions on average", "", f"{result['experts']};"
          f" {result['solutions_mean']:.2f}", None),
         ("vision's error, standard deviation of [u v disparity], px", "about 2", spread, None),
@@ -103,6 +106,12 @@ def _rows(result: dict) -> list[tuple]:
         ("speed against real time", "", f"{wall['real_time_factor']:.2f}",
          wall["real_time_factor"] >= 2),
     ]  # fmt: skip
+
+
+def _body(found: dict | None) -> str:
+    if found is None:
+        return "none"
+    return f"{found['samples']}; {found['error']:.2f}; {found['searches']}"
 
 
 def _table(rows: list[tuple]) -> str:

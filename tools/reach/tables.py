@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from itertools import product
+from math import prod
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from .log_stream import JOINTS, Group
 from .message_fields import Field, Message
 from .messages import described
 
+_LARGEST = 1000  # entries of an array that become columns; a body has more, and no use for them
 LOG_STAMP = Field("int64_t", "log_utime", "us since the epoch", "when the message was logged")
 
 
@@ -55,8 +57,11 @@ class Table:
         if not message.counts(entry) or entry.is_text:
             words = [Column(f"{name}_word", entry, is_word=True)] if entry.words else []
             return [Column(name, entry), *words]
+        lengths = self._lengths(message, entry)
+        if prod(lengths) > _LARGEST:
+            return []
         found = []
-        for index in product(*(range(n) for n in self._lengths(message, entry))):
+        for index in product(*(range(n) for n in lengths)):
             joint = ""
             if message.is_of_joints(entry) and index[0] < len(self.joints):
                 joint = self.joints[index[0]]

@@ -19,6 +19,8 @@ struct command_settings {
     int64_t seed;     /* of babbling's random configurations */
     double period;    /* s for each target, 0: the command's own */
     const char *file; /* coordinate: list of targets, NULL: the paper's 16 */
+    const char *urdf; /* body: file to write, NULL: none */
+    bool dh;          /* body: Denavit's and Hartenberg's numbers instead of words */
 };
 
 void command_defaults(struct command_settings *settings);
@@ -28,6 +30,7 @@ enum call_kind {
     CALL_TOP,        /* show what is on the bus, over and over */
     CALL_DOCTOR,     /* examine machine and bus */
     CALL_ECHO,       /* print the messages of `channel` */
+    CALL_BODY,       /* send `request`, show the body that comes */
     CALL_DAEMON,     /* send `request` */
     CALL_SIMULATOR,  /* send `sim` */
     CALL_UNANSWERED, /* send `sim`, whose receiver ends before it could answer */

@@ -1,6 +1,7 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
 #include "common/bus/open.h"
 #include "common/options/command_line.h"
+#include "tools/reachctl/body/show.h"
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
@@ -8,7 +9,9 @@
 #include "tools/reachctl/view/show.h"
 #include "tools/reachctl/view/top.h"
 
+#include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_WORDS = 8 };
 
@@ -32,6 +35,10 @@ static const struct argument_row rows[] = {
                 "use the model without teaching it"),
     ARGUMENT_TEXT("file", 0, "F", struct arguments, settings.file,
                   "targets of coordinate, lines 'u v disparity' in pixels"),
+    ARGUMENT_TEXT("urdf", 0, "FILE", struct arguments, settings.urdf,
+                  "body: write it there as a URDF"),
+    ARGUMENT_ON("dh", 0, struct arguments, settings.dh,
+                "body: as numbers of Denavit and Hartenberg"),
     ARGUMENT_SECONDS("period", "S", struct arguments, settings.period, "time for each target"),
     ARGUMENT_END,
 };
@@ -76,6 +83,35 @@ static int show_status(struct client *client, const struct command_settings *set
     return 0;
 }
 
+static int write_urdf(const struct body *body, const char *path, char *error, size_t error_size)
+{
+    FILE *file = fopen(path, "w");
+
+    if (file)
+        body_write_urdf(body, file);
+    if (!file || ferror(file) || fclose(file) != 0) {
+        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+        return -1;
+    }
+    return 0;
+}
+
+static int show_body_in_use(struct client *client, const struct call *call,
+                            const struct command_settings *settings, char *error, size_t error_size)
+{
+    static struct body body;
+
+    if (client_ask_body(client, &call->request, settings->timeout, &body, error, error_size))
+        return -1;
+    if (settings->urdf)
+        return write_urdf(&body, settings->urdf, error, error_size);
+    if (settings->dh)
+        body_write_dh(&body, stdout);
+    else
+        body_show(&body, stdout);
+    return 0;
+}
+
 /* What needs somebody who answers. */
 static int ask(struct client *client, struct call *call, const struct command_settings *settings,
                char *error, size_t error_size)
@@ -83,6 +119,8 @@ static int ask(struct client *client, struct call *call, const struct command_se
     switch (call->kind) {
     case CALL_STATUS:
         return show_status(client, settings, error, error_size);
+    case CALL_BODY:
+        return show_body_in_use(client, call, settings, error, error_size);
     case CALL_DAEMON:
         if (client_ask_daemon(client, &call->request, settings->timeout, error, error_size))
             return -1;

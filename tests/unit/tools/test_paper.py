@@ -76,6 +76,7 @@ class Resuming(unittest.TestCase):
         changed = self.folder / "kobian.yaml"
         changed.write_text("period: 0.02\n")
         with mock.patch.object(kobian, "configurations", lambda: [changed]), \
+             mock.patch.object(kobian, "overlays", lambda learner: []), \
              mock.patch.object(plan, "ROOT", self.folder):  # fmt: skip
             before = self.run_.inputs("v1")
             changed.write_text("period: 0.01\n")

@@ -43,7 +43,7 @@ class Practice(unittest.TestCase):
 
     def test_one_may_practise(self):
         without, allowed = (group.overlays("imle") for group in BOTH)
-        self.assertEqual((without, [path.name for path in allowed]), ([], ["practice.yaml"]))
+        self.assertEqual([path.name for path in allowed if path not in without], ["practice.yaml"])
 
     def test_a_target_within_five_pixels_is_reached(self):
         for group in BOTH:

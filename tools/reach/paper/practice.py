@@ -13,7 +13,7 @@ import numpy as np
 from .. import summary
 from ..demo import BABBLE_SECONDS
 from ..experiment import Experiment
-from ..programs import ROOT
+from ..programs import POLYNOMIAL, ROOT
 from ..record import Record
 from . import kobian, series, track
 from .drawing import Shown
@@ -42,7 +42,7 @@ class Practice:
         return {"samples": 3, "seconds": 1.5 if quick else 3.0}
 
     def overlays(self, learner: str) -> list[Path]:
-        return [ROOT / "etc/practice.yaml"] if self.allowed else []
+        return [POLYNOMIAL, *([ROOT / "etc/practice.yaml"] if self.allowed else [])]
 
     def configurations(self) -> list[Path]:
         return kobian.configurations()

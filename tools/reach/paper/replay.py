@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from ..programs import BINARIES, LEARNERS, ROOT
+from ..programs import BINARIES, LEARNERS, POLYNOMIAL, ROOT
 
 
 class ReplayError(Exception):
@@ -31,16 +31,18 @@ class Robot:
 
 
 KOBIAN = Robot(
-    ROOT / "etc/kobian.yaml", LEARNERS, ("noise_angle", "noise_angle", "noise_disparity")
+    ROOT / "etc/kobian.yaml",
+    {"imle": POLYNOMIAL, **LEARNERS},
+    ("noise_angle", "noise_angle", "noise_disparity"),
 )
 ICUB = Robot(
     ROOT / "etc/icub.yaml",
-    {name: ROOT / f"etc/icub-{name}.yaml" for name in LEARNERS},
+    {"imle": POLYNOMIAL, **{name: ROOT / f"etc/icub-{name}.yaml" for name in LEARNERS}},
     ("noise_position",) * 3,
 )
 
 # All others have the same names for both.
-_DAEMON_ONLY = {"kind", "queue", "quota"}
+_DAEMON_ONLY = {"kind", "queue", "quota", "body.order"}
 # Those of other shape or unit: standard deviations, degrees, and numbers of each output, of which a
 # file may have those of other robots, too.
 _CONVERTED = {"reach", "reference"}
@@ -56,8 +58,9 @@ def options(robot: Robot, learner: str) -> dict:
 
 
 def overlays(robot: Robot, learner: str) -> list[Path]:
-    """Configuration of the daemon after the robot's: none for what ships."""
-    return [robot.overlays[learner]] if learner in robot.overlays else []
+    """Configuration of the daemon after the robot's. The paper's robots learn from features of the
+    joints alone, so no learner here has a body."""
+    return [robot.overlays[learner]]
 
 
 def _flat(nested: dict, prefix: str = "") -> dict:

@@ -91,10 +91,12 @@ static void put_field(const lcm_field_t *field, FILE *out)
         put_array(field, data, 0, &at, out);
 }
 
-/* Images are left out: their size is told, and nobody reads them as text. */
+/* Images and samples for a search are left out: nobody reads them as text, and memory for them
+ * would be as large as the message says. */
 static bool is_readable(const struct message_type *type)
 {
-    return type && strcmp(type->channel, "STEREO_IMAGES") != 0;
+    return type && strcmp(type->channel, "STEREO_IMAGES") != 0 &&
+           strcmp(type->channel, "REACH_BODY_REQUEST") != 0;
 }
 
 static bool put_fields(const struct message_type *type, const void *data, size_t size, FILE *out)

@@ -30,6 +30,17 @@ static const char *result_word(const reach_status_t *status)
     return status_result_word(status->request_result);
 }
 
+void show_body(const reach_status_t *status, char *text, size_t size)
+{
+    const char *word = status_body_word(status->body);
+
+    if (status->body == REACH_STATUS_T_BODY_FOUND)
+        snprintf(text, size, "%s from %d samples, off by %.2f times the noise, unsure by %.2f %%",
+                 word, status->body_samples, status->body_error, 100 * status->body_doubt);
+    else
+        snprintf(text, size, "%s", word);
+}
+
 double show_error(const reach_status_t *status)
 {
     return status->space == REACH_STATUS_T_CARTESIAN ? 1e3 * status->error : status->error;
@@ -42,6 +53,9 @@ const char *show_error_unit(const reach_status_t *status)
 
 void show_text(const reach_status_t *status, FILE *out)
 {
+    char body[128];
+
+    show_body(status, body, sizeof body);
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
             show_behaviour(status), show_phase(status));
     if (status->fault != REACH_STATUS_T_FAULT_NONE)
@@ -54,6 +68,7 @@ void show_text(const reach_status_t *status, FILE *out)
     fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d; context %d of %d\n",
             (long long)status->samples, status->experts, status->solutions, status->solution,
             status->context, status->contexts);
+    fprintf(out, "body       %s; %lld searches\n", body, (long long)status->body_searches);
     fprintf(out, "disk       %lld of the model's %lld samples are stored%s\n",
             (long long)status->samples_stored, (long long)status->model_samples,
             status->storing ? "" : "; nothing is being stored");
@@ -101,6 +116,10 @@ static const struct field {
     FIELD(solution, FIELD_INT32),
     FIELD(contexts, FIELD_INT32),
     FIELD(context, FIELD_INT32),
+    FIELD(body_samples, FIELD_INT32),
+    FIELD(body_error, FIELD_DOUBLE),
+    FIELD(body_doubt, FIELD_DOUBLE),
+    FIELD(body_searches, FIELD_INT64),
     FIELD(compute_us, FIELD_DOUBLE),
     FIELD(compute_mean_us, FIELD_DOUBLE),
     FIELD(compute_p999_us, FIELD_DOUBLE),
@@ -164,6 +183,7 @@ void show_json(const reach_status_t *status, FILE *out)
     fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", show_state(status),
             show_behaviour(status), show_phase(status));
     fprintf(out, ", \"fault\": \"%s\"", status_fault_word(status->fault));
+    fprintf(out, ", \"body\": \"%s\"", status_body_word(status->body));
     fprintf(out, ", \"request_result\": \"%s\"", result_word(status));
     for (size_t i = 0; i < COUNT(fields); i++) {
         fprintf(out, ", \"%s\": ", fields[i].name);

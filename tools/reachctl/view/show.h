@@ -24,6 +24,9 @@ const char *show_behaviour(const reach_status_t *status);
 const char *show_phase(const reach_status_t *status);
 
 /* The error in people's units of the daemon's task space, px or mm. */
+/* What is known of the robot's body, in at most `size` bytes. */
+void show_body(const reach_status_t *status, char *text, size_t size);
+
 double show_error(const reach_status_t *status);
 const char *show_error_unit(const reach_status_t *status);
 

@@ -139,6 +139,7 @@ static void draw_error(struct page *page, const struct top *top)
 static void draw_status(struct page *page, const struct top *top)
 {
     const reach_status_t *s = &top->status;
+    char body[128];
     int64_t troubles = s->overruns + s->slips + s->bad_inputs + s->gated + s->dropped_samples;
 
     line(page, LOOK_PLAIN, "progress   %d of %d, %d given up; marker %s%s; request %s", s->progress,
@@ -147,6 +148,8 @@ static void draw_status(struct page *page, const struct top *top)
     line(page, LOOK_PLAIN,
          "model      %lld samples, %d experts; %d solutions, in use %d; context %d of %d",
          (long long)s->samples, s->experts, s->solutions, s->solution, s->context, s->contexts);
+    show_body(s, body, sizeof body);
+    line(page, LOOK_PLAIN, "body       %s", body);
     draw_error(page, top);
     line(page, LOOK_PLAIN, "tick       %.0f us, %.0f mean, %.0f p99.9, %.0f largest; wake-up %.0f",
          s->compute_us, s->compute_mean_us, s->compute_p999_us, s->compute_max_us, s->wakeup_us);
@@ -192,7 +195,7 @@ static const char *type_of(const struct rate *rate)
 
     if (!rate->type)
         return wanted ? "another version" : "not ours";
-    return wanted && wanted != rate->type ? "wrong type" : rate->type->name;
+    return wanted && !message_type_same(wanted, rate->type) ? "wrong type" : rate->type->name;
 }
 
 static void draw_channel(struct page *page, const struct rate *rate, int64_t now)
