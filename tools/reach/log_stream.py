@@ -114,7 +114,7 @@ class Stream:
         """What is not in the pieces, a line each."""
         lines = [told(self.gaps)] if self.gaps else []
         lines += told_of("that cannot be read", self.refused)
-        lines += told_of("that are not exported", self.left_out)
+        lines += told_of("not exported", self.left_out)
         return lines + told_of("on channels that are not ours", self.foreign)
 
     def _piece(self, found: list[Event]) -> Piece:

@@ -57,6 +57,17 @@ class Tables(Exported):
         self.assertEqual(table["position[3]"].to_pylist(), [None, 2.3])
         self.assertEqual(table["position[1]"].to_pylist(), [1.1, 2.1])
 
+    def test_a_body_has_no_columns_for_all_its_numbers(self):
+        body = filled(types.body_t(), {"samples": 7, "why": [*b"too few", *[0] * 153]})
+        request = types.body_request_t()
+        self.write([("REACH_BODY", 1, body), ("REACH_BODY_REQUEST", 2, request)])
+        said = self.export("--csv", self.folder / "csv")
+        self.assertIn("1 message not exported: 1 REACH_BODY_REQUEST", said)
+        (row,) = self.rows("REACH_BODY")
+        self.assertEqual((row["samples"], row["why"]), ("7", "too few"))
+        self.assertLess(len(row), 30)
+        self.assertEqual(read_log(self.log)["REACH_BODY"]["numbers"].shape, (1, 5841))
+
     def test_a_whole_run(self):
         synthetic.make(self.folder)
         record = read_log(self.log)
