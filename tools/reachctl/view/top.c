@@ -1,22 +1,30 @@
-#include "tools/reachctl/top.h"
+#include "tools/reachctl/view/top.h"
 
 #include "common/bus/open.h"
-#include "tools/reachctl/terminal.h"
-#include "tools/reachctl/top_view.h"
+#include "tools/reachctl/view/terminal.h"
+#include "tools/reachctl/view/top_view.h"
 
 #include <lcm/lcm.h>
 
-enum { QUEUE = 1000 }; /* messages that may wait while a frame is drawn */
+enum { QUEUE = 100000 }; /* messages that may wait while a frame is drawn */
 
 static const int64_t frame_us = 250000;
+static const int64_t longest_wait_us = 60000000;
 static const int64_t first_look_us = 1100000; /* a window of the rates, and some */
 /* A frame that is not for a terminal: wide and high enough for everything. */
 static const int page_width = 132;
-static const int page_height = 66;
+static const int page_height = 66 + RATES_MOST;
 
 static void on_any(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
-    top_hear((struct top *)user, channel, message->data, message->data_size, bus_monotonic_us());
+    int64_t now = bus_monotonic_us();
+    int64_t waited =
+        bus_utime() - message->recv_utime; /* a clock that was set may make it nonsense */
+
+    if (waited < 0 || waited > longest_wait_us)
+        waited = 0;
+    top_note_lateness(user, waited, now);
+    top_hear(user, channel, message->data, message->data_size, now - waited);
 }
 
 static void listen_until(lcm_t *lcm, int64_t end)
@@ -27,15 +35,32 @@ static void listen_until(lcm_t *lcm, int64_t end)
         lcm_handle_timeout(lcm, (int)(left / 1000) + 1);
 }
 
+/* Packets that found a full socket, whoever's, in this network; 0 when the kernel does not tell. */
+static int64_t full_sockets(void)
+{
+    FILE *file = fopen("/proc/net/snmp", "r");
+    char text[512];
+    long long errors = 0;
+
+    while (file && fgets(text, sizeof text, file)) /* datagrams: in, no port, errors, out, full */
+        if (sscanf(text, "Udp: %*u %*u %*u %*u %lld", &errors) == 1)
+            break;
+    if (file)
+        fclose(file);
+    return errors;
+}
+
 static int show_once(lcm_t *lcm, struct top *top, double timeout, char *error, size_t error_size)
 {
     int64_t start = bus_monotonic_us();
+    int64_t full = full_sockets();
     int64_t end = start + (int64_t)(timeout * 1e6);
 
     do {
         listen_until(lcm, bus_monotonic_us() + first_look_us);
         top_settle(top, bus_monotonic_us());
     } while (top->speed == 0 && bus_monotonic_us() < end);
+    top->dropped = full_sockets() - full;
     top_draw(top, bus_monotonic_us(), page_width, page_height, false, stdout);
     if (top->status_at)
         return 0;
@@ -45,6 +70,7 @@ static int show_once(lcm_t *lcm, struct top *top, double timeout, char *error, s
 
 static int show_until_quit(lcm_t *lcm, struct top *top, char *error, size_t error_size)
 {
+    int64_t full = full_sockets();
     int width;
     int height;
 
@@ -55,6 +81,7 @@ static int show_until_quit(lcm_t *lcm, struct top *top, char *error, size_t erro
     while (!terminal_ended() && terminal_key() != 'q') {
         terminal_size(&width, &height);
         top_settle(top, bus_monotonic_us());
+        top->dropped = full_sockets() - full;
         top_draw(top, bus_monotonic_us(), width, height, true, stdout);
         listen_until(lcm, bus_monotonic_us() + frame_us);
     }

@@ -1,7 +1,8 @@
-#include "tools/reachctl/top_view.h"
+#include "tools/reachctl/view/top_view.h"
 
 #include "common/bus/status_words.h"
-#include "tools/reachctl/show.h"
+#include "common/program/printable.h"
+#include "tools/reachctl/view/show.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -10,6 +11,8 @@
 #define DEGREES (180.0 / 3.14159265358979323846)
 
 static const int64_t silent_us = 1000000; /* after that long, what was said is old */
+static const int64_t late_us = 500000;    /* so long may a message wait for us */
+static const int64_t told_us = 5000000;   /* so long is it told that one waited longer */
 static const char level[] = " .:-=+*#%@";
 
 struct page {
@@ -24,7 +27,7 @@ static const char *const colour[] = {"", "\033[1m", "\033[1;31m"};
 
 void top_hear(struct top *top, const char *channel, const void *data, size_t size, int64_t now)
 {
-    rates_count(&top->rates, channel, size, now);
+    rates_count(&top->rates, channel, data, size, now);
     if (strcmp(channel, "REACH_STATUS") == 0) {
         if (reach_status_t_decode(data, 0, (int)size, &top->status) >= 0)
             top->status_at = now;
@@ -35,6 +38,15 @@ void top_hear(struct top *top, const char *channel, const void *data, size_t siz
         if (reach_robot_command_t_decode(data, 0, (int)size, &top->command) >= 0)
             top->command_at = now;
     }
+}
+
+void top_note_lateness(struct top *top, int64_t waited, int64_t now)
+{
+    if (waited <= late_us)
+        return;
+    if (now - top->late_at > told_us || waited > top->lateness)
+        top->lateness = waited;
+    top->late_at = now;
 }
 
 static void note_error(struct top *top)
@@ -96,6 +108,18 @@ static void draw_title(struct page *page, const struct top *top, int64_t now)
         line(page, status->state == REACH_STATUS_T_FAULT ? LOOK_ALARM : LOOK_TITLE,
              "reachd %s, %s, %s   robot time %.2f s%s", show_state(status), show_behaviour(status),
              show_phase(status), (double)status->utime * 1e-6, speed);
+}
+
+/* What is shown is of a past that grows, or parts of it were lost. */
+static void draw_lateness(struct page *page, const struct top *top, int64_t now)
+{
+    if (now - top->late_at <= told_us && top->late_at != 0)
+        line(page, LOOK_ALARM, "top cannot keep up: what it shows is up to %.1f s old",
+             (double)top->lateness * 1e-6);
+    if (top->dropped > 0)
+        line(page, LOOK_ALARM,
+             "%lld packets found a full socket since top was started, so that messages were lost",
+             (long long)top->dropped);
 }
 
 static void draw_error(struct page *page, const struct top *top)
@@ -163,15 +187,29 @@ static void draw_joints(struct page *page, const struct top *top)
         draw_joint_row(page, "command deg/s", top->command.velocity, top->command.n_joints);
 }
 
+/* Of a message that is not laid out as its channel wants it, or is on a channel that is not ours.
+ */
+static const char *type_of(const struct rate *rate)
+{
+    const struct message_type *wanted = message_type_of_channel(rate->channel);
+
+    if (!rate->type)
+        return wanted ? "another version" : "not ours";
+    return wanted && !message_type_same(wanted, rate->type) ? "wrong type" : rate->type->name;
+}
+
 static void draw_channel(struct page *page, const struct rate *rate, int64_t now)
 {
     double age = (double)(now - rate->last) * 1e-6;
+    char channel[4 * RATES_NAME];
+    char counts[64] = "       -         -         -";
 
-    if (now - rate->last > silent_us)
-        line(page, LOOK_PLAIN, "%-24.24s        -            -  %8.1f", rate->channel, age);
-    else
-        line(page, LOOK_PLAIN, "%-24.24s %8.1f %12.1f  %8.1f", rate->channel, rate->per_second,
-             rate->bytes_per_second * 1e-3, age);
+    if (now - rate->last <= silent_us)
+        snprintf(counts, sizeof counts, "%8.1f %9.1f %9.2f", rate->per_second,
+                 rate->bytes_per_second * 1e-3, rate->jitter * 1e-3);
+    line(page, LOOK_PLAIN, "%-24.24s %s %8.3f %8.1f  %s",
+         printable(rate->channel, RATES_NAME, channel, sizeof channel), counts,
+         (double)rate->longest * 1e-6, age, type_of(rate));
 }
 
 static void draw_channels(struct page *page, const struct rates *rates, int64_t now)
@@ -179,7 +217,8 @@ static void draw_channels(struct page *page, const struct rates *rates, int64_t 
     int room = page->height - page->row - 1; /* for channels under the title */
     int shown = rates->n <= room ? rates->n : room - 1;
 
-    line(page, LOOK_TITLE, "%-24s %8s %12s  %8s", "channel", "messages/s", "kB/s", "silent s");
+    line(page, LOOK_TITLE, "%-24s %8s %9s %9s %8s %8s  %s", "channel", "each s", "kB/s",
+         "jitter ms", "pause s", "silent s", "type");
     for (int i = 0; i < shown; i++)
         draw_channel(page, &rates->rate[i], now);
     if (shown < rates->n)
@@ -196,6 +235,7 @@ void top_draw(const struct top *top, int64_t now, int width, int height, bool te
     if (terminal)
         fputs("\033[H", out);
     draw_title(&page, top, now);
+    draw_lateness(&page, top, now);
     if (top->status_at)
         draw_status(&page, top);
     draw_joints(&page, top);

@@ -1,6 +1,6 @@
 /* A status in words, as JSON, and as a progress line. */
-#ifndef REACHCTL_SHOW_H
-#define REACHCTL_SHOW_H
+#ifndef REACHCTL_VIEW_SHOW_H
+#define REACHCTL_VIEW_SHOW_H
 
 #include <reach_status_t.h>
 #include <stdio.h>

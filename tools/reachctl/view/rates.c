@@ -1,5 +1,6 @@
-#include "tools/reachctl/rates.h"
+#include "tools/reachctl/view/rates.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,7 +25,17 @@ static struct rate *row(struct rates *rates, const char *channel)
     return &rates->rate[i];
 }
 
-void rates_count(struct rates *rates, const char *channel, size_t bytes, int64_t now)
+static void count_interval(struct rate *rate, int64_t interval)
+{
+    rate->intervals++;
+    rate->sum += (double)interval;
+    rate->squares += (double)interval * (double)interval;
+    if (interval > rate->longest)
+        rate->longest = interval;
+}
+
+void rates_count(struct rates *rates, const char *channel, const void *data, size_t bytes,
+                 int64_t now)
 {
     struct rate *rate = row(rates, channel);
 
@@ -34,9 +45,20 @@ void rates_count(struct rates *rates, const char *channel, size_t bytes, int64_t
         rates->uncounted++;
         return;
     }
+    if (rate->last != 0)
+        count_interval(rate, now - rate->last);
+    rate->type = message_type_of(data, bytes);
     rate->last = now;
     rate->messages++;
     rate->bytes += (int64_t)bytes;
+}
+
+static double jitter_of(const struct rate *rate)
+{
+    double n = (double)rate->intervals;
+    double mean = n > 0 ? rate->sum / n : 0;
+
+    return n >= 2 ? sqrt(fmax(0, rate->squares / n - mean * mean)) : 0;
 }
 
 double rates_settle(struct rates *rates, int64_t now)
@@ -49,7 +71,9 @@ double rates_settle(struct rates *rates, int64_t now)
         struct rate *rate = &rates->rate[i];
         rate->per_second = (double)rate->messages / seconds;
         rate->bytes_per_second = (double)rate->bytes / seconds;
-        rate->messages = rate->bytes = 0;
+        rate->jitter = jitter_of(rate);
+        rate->messages = rate->bytes = rate->intervals = 0;
+        rate->sum = rate->squares = 0;
     }
     rates->opened = now;
     return seconds;

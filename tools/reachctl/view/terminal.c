@@ -1,4 +1,4 @@
-#include "tools/reachctl/terminal.h"
+#include "tools/reachctl/view/terminal.h"
 
 #include <poll.h>
 #include <signal.h>

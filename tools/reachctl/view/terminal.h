@@ -1,6 +1,6 @@
 /* The terminal as a page: keys without Enter, a screen that is given back at the end. */
-#ifndef REACHCTL_TERMINAL_H
-#define REACHCTL_TERMINAL_H
+#ifndef REACHCTL_VIEW_TERMINAL_H
+#define REACHCTL_VIEW_TERMINAL_H
 
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "tools/reachctl/show.h"
+#include "tools/reachctl/view/show.h"
 
 #include "common/bus/status_words.h"
 

@@ -1,6 +1,6 @@
 /* `reachctl top`: the bus at a glance, four times a second. */
-#ifndef REACHCTL_TOP_H
-#define REACHCTL_TOP_H
+#ifndef REACHCTL_VIEW_TOP_H
+#define REACHCTL_VIEW_TOP_H
 
 #include <stdbool.h>
 #include <stddef.h>
