@@ -5,7 +5,9 @@ import io
 import os
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import yaml
@@ -14,7 +16,7 @@ from reach.tune.__main__ import main
 from reach.tune.columns import look_at
 from reach.tune.data import Samples, read
 from reach.tune.parts import split
-from reach.tune.search import look_for, make_search, rows_that_fit
+from reach.tune.search import look_for, make_search, rows_that_fit, try_body
 from reach.tune.settings import start_for
 
 ARM = Path(os.environ["REACH_SOURCE_DIR"]) / "examples/own_data/arm.csv"
@@ -49,18 +51,28 @@ class Tune(unittest.TestCase):
     def test_the_search_begins_with_the_recipe_and_repeats_itself(self):
         one, other = self.search("one", 6), self.search("other", 6)
         self.assertEqual(one.tried, other.tried)
-        score, settings = one.tried[0]
+        first = one.tried[0]
         recipe = start_for(one.look)
         for name in ("width", "doubt", "p0", "ridge", "degree"):
-            self.assertAlmostEqual(getattr(settings, name), getattr(recipe, name), places=9)
+            self.assertAlmostEqual(getattr(first.settings, name), getattr(recipe, name), places=9)
         self.assertEqual(len(one.tried), 6)
-        self.assertLess(min(s for s, _ in one.tried), score)
+        self.assertLess(one.best()[0].score, first.score)
 
     def test_fewer_rows_are_learned_where_time_is_short(self):
         self.assertEqual(rows_that_fit(0.1, 5000, 60), 5000)  # 30 trials of 0.1 s
         self.assertEqual(rows_that_fit(4, 5000, 60), 2500)
         self.assertEqual(rows_that_fit(400, 5000, 60), 500)
         self.assertEqual(rows_that_fit(400, 300, 60), 300)
+
+    def test_a_body_that_makes_solutions_is_left_out(self):
+        search = self.search("one", 1)
+        (best,) = search.best()
+        for factor, taken in ((1.05, 2), (1.5, 1)):
+            tried = replace(best, solutions=factor * best.solutions)
+            with mock.patch.object(search, "try_out", return_value=tried):
+                try_body(search, 10, Silent())
+            self.assertEqual(len(search.tried), taken)
+            del search.tried[1:]
 
     def test_two_tools_are_found(self):
         """Nobody says which row is of which: 2 solutions, near the noise of 1 mm an axis, where

@@ -75,17 +75,16 @@ def tune(options: argparse.Namespace, parts: Parts, look: Look, progress: Progre
     work = options.out / "work"
     all_rows = search.make_search(work / "all", parts.learn, parts.choose, look)
     start = time.monotonic()
-    all_rows.try_out(start_for(look))
+    all_rows.take(all_rows.try_out(start_for(look)))
     rows = search.rows_that_fit(time.monotonic() - start, len(parts.learn), _SEARCH_SHARE * seconds)
     thinned = search.make_search(work / "some", thin(parts.learn, rows), parts.choose, look)
     search.look_for(thinned, _SEARCH_SHARE * seconds, options.trials, progress)
     if not thinned.tried:
         raise EvaluationError("no trial came to an end")
-    best = search.choose(thinned, all_rows, progress)
+    search.compare_on_all(thinned, all_rows, progress)
     if look.may_be_a_body and not options.no_body:
         search.try_body(all_rows, _BODY_SHARE * seconds, progress)
-        best = all_rows.best()[0]
-    return best, [score for score, _ in thinned.tried]
+    return all_rows.best()[0].settings, [tried.score for tried in thinned.tried]
 
 
 def judge(options: argparse.Namespace, parts: Parts, look: Look, best: Settings,

@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from ..figures import COLOURS, PAPER, canvas
 from .data import Samples
@@ -74,6 +75,7 @@ def branches(found: Measured, before: Measured) -> Figure:
     for axis, what in zip(axes[0], ("experts", "solutions of a posture, mean"), strict=True):
         axis.set(xscale="log", xlabel="samples learned", ylabel=what)
         axis.set_ylim(bottom=0)
+        axis.xaxis.set_minor_formatter(NullFormatter())
     axes[0, 0].legend()
     return figure
 

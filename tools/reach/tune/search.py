@@ -19,7 +19,15 @@ from .trial import Bench
 
 _WANTED_TRIALS = 30  # at least, by learning fewer rows
 _FEWEST_ROWS = 500
+_MORE_SOLUTIONS = 1.1
 _FINALISTS = 3  # of the search, compared on all rows
+
+
+@dataclass(frozen=True)
+class Tried:
+    score: float
+    settings: Settings
+    solutions: float  # the larger mean of both directions
 
 
 @dataclass
@@ -29,24 +37,27 @@ class Search:
     bench: Bench
     look: Look
     rows: int
-    tried: list[tuple[float, Settings]] = field(default_factory=list)  # in order
+    tried: list[Tried] = field(default_factory=list)  # in order
 
     def try_out(
         self, settings: Settings, name: str = "trial", timeout: float | None = None
-    ) -> float:
+    ) -> Tried:
         config = write_yaml(self.bench.folder / f"{name}.yaml", settings, self.look, "a trial")
-        scores = [
-            self.bench.score(
-                self.bench.measure(config, [self.rows], timeout=timeout, backward=backward)
-            )
+        both = [
+            self.bench.measure(config, [self.rows], timeout=timeout, backward=backward)
             for backward in (False, True)
         ]
-        self.tried.append((math.prod(scores) ** 0.5, settings))
-        return self.tried[-1][0]
+        return Tried(
+            math.prod(self.bench.score(measured) for measured in both) ** 0.5, settings,
+            max(measured.solutions.mean() for measured in both),
+        )  # fmt: skip
 
-    def best(self, n: int = 1) -> list[Settings]:
-        ranked = sorted(self.tried, key=lambda pair: pair[0])
-        return list(dict.fromkeys(settings for _, settings in ranked))[:n]
+    def take(self, tried: Tried) -> Tried:
+        self.tried.append(tried)
+        return tried
+
+    def best(self, n: int = 1) -> list[Tried]:
+        return sorted(self.tried, key=lambda tried: tried.score)[:n]
 
 
 def write_yaml(path: Path, settings: Settings, look: Look, origin: str) -> Path:
@@ -89,10 +100,10 @@ def look_for(search: Search, budget: float, most_trials: int, progress: Progress
 
     def objective(trial: optuna.Trial) -> float:
         try:
-            score = search.try_out(_proposal(trial, len(search.look.inputs)))
+            tried = search.take(search.try_out(_proposal(trial, len(search.look.inputs))))
         except EvaluationError:  # such as an expert that is too large: no reason to end
             return 100.0
-        return math.log(max(score, 1e-12))
+        return math.log(max(tried.score, 1e-12))
 
     def tell(study: optuna.Study, trial) -> None:
         n, spent = len(study.trials), time.monotonic() - start
@@ -109,28 +120,33 @@ def look_for(search: Search, budget: float, most_trials: int, progress: Progress
 
 
 def try_body(search: Search, seconds: float, progress: Progress) -> None:
-    """The best parameters with experts on a body, if it is found in time."""
+    """The best parameters with experts on a body, if it is found in time. One that makes more
+    solutions of the same rows has taken errors of the body for tools."""
     (best,) = search.best()
     progress.update("body", 0.0, "looking for a chain of joints")
     try:
-        score = search.try_out(best.as_body(), "body", timeout=seconds)
+        tried = search.try_out(best.settings.as_body(), "body", timeout=seconds)
     except EvaluationError as error:
         progress.finish("body", f"left out: {error}")
         return
-    progress.finish("body", f"error {score:.2%} of the range")
+    if tried.solutions > _MORE_SOLUTIONS * best.solutions:
+        progress.finish("body", f"left out: {tried.solutions:.1f} solutions, not "
+                        f"{best.solutions:.1f} as before")  # fmt: skip
+        return
+    search.take(tried)
+    progress.finish("body", f"error {tried.score:.2%} of the range")
 
 
-def choose(search: Search, all_rows: Search, progress: Progress) -> Settings:
-    """The best on all rows, of the few that were best on fewer."""
+def compare_on_all(search: Search, all_rows: Search, progress: Progress) -> None:
+    """The few that were best on fewer rows learn all of them."""
     finalists = search.best(_FINALISTS)
     if search.rows == all_rows.rows:
         all_rows.tried += search.tried
-        return finalists[0]
-    for n, settings in enumerate(finalists):
+        return
+    for n, tried in enumerate(finalists):
         progress.update("finalists", n / len(finalists), f"{n} of {len(finalists)} on all rows")
-        all_rows.try_out(settings)
+        all_rows.take(all_rows.try_out(tried.settings))
     progress.finish("finalists", f"{len(finalists)} learned all {all_rows.rows} rows")
-    return all_rows.best()[0]
 
 
 def make_search(folder: Path, train: Samples, test: Samples, look: Look) -> Search:
