@@ -185,6 +185,13 @@ static int apply_to_table(void *user, const char *name, const char *const *items
     return set_option(row, loading->target, items, n_items, is_list, error, error_size);
 }
 
+/* "1,2,3" for a list: on a command line brackets are for the shell. */
+static bool is_bare_list(const struct option_row *row, const char *value)
+{
+    return row && (row->type == OPTION_LIST || row->type == OPTION_SPREAD) && strchr(value, ',') &&
+           !strchr(value, '[');
+}
+
 /* Reads "name: value" as YAML, so that defaults and overrides follow the file's own syntax. */
 static int apply_text(struct loading *loading, const char *origin, const char *name,
                       const char *value, char *error, size_t error_size)
@@ -192,7 +199,8 @@ static int apply_text(struct loading *loading, const char *origin, const char *n
     char text[2 * OPTION_MAX_TEXT + 64];
     FILE *stream;
     int result;
-    int length = snprintf(text, sizeof text, "%s: %s\n", name, value);
+    const bool is_bare = is_bare_list(option_find(loading->table, name), value);
+    int length = snprintf(text, sizeof text, is_bare ? "%s: [%s]\n" : "%s: %s\n", name, value);
 
     if (length < 0 || length >= (int)sizeof text) {
         snprintf(error, error_size, "%s: %s: value is too long", origin, name);
