@@ -32,7 +32,7 @@ const struct option_row robot_rows[] = {
      "link of the left eye: x along the optical axis, z up; empty = no eyes", nullptr},
     {"robot.right_eye", OPTION_TEXT, AT(right_eye), nullptr, "", 0, 0,
      "link of the right eye: x along the optical axis, z up; empty = no eyes", nullptr},
-    {"robot.start", OPTION_LIST, AT(start), "deg", "[]", -180, 180,
+    {"robot.start", OPTION_LIST, AT(start), "deg", "[]", -36000, 36000,
      "joint angles at the start and after a reset: the arm's, then the head's; empty = all 0",
      nullptr},
     {"robot.hard_stops", OPTION_BOOL, AT(hard_stops), nullptr, "true", 0, 0,
