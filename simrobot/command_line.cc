@@ -35,6 +35,8 @@ const argument_row rows[] = {
         "eyes is seen from its two sides"),
     ARGUMENT_INT64("bench-eyes", "N", CommandLine, bench_eyes, 1, 1000000,
                    "draw and encode N image pairs, print the time of each part, and exit"),
+    ARGUMENT_ON("check", 0, CommandLine, check,
+                "say what is wrong, guessed or left out in configuration and URDF, and exit"),
     ARGUMENT_ON("renderer", 0, CommandLine, renderer,
                 "name what draws, or say what is missing, and exit"),
     ARGUMENT_ON("verbose", 'v', CommandLine, verbose, "say more"),

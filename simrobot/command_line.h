@@ -15,7 +15,8 @@ struct CommandLine {
     const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
     int n_overrides = 0;
     bool lockstep = true;
-    bool hold = false, send_truth = true, eyes = true, renderer = false, verbose = false;
+    bool check = false, hold = false, send_truth = true, eyes = true, renderer = false,
+         verbose = false;
     int64_t seed = 1;
     int64_t bench_eyes = 0;
     int64_t tool = 0; /* in the hand at the start */

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -105,6 +106,10 @@ bool start(const sim::CommandLine &line, std::string *error)
     if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
         !sim::rig_load(config, &rig, error))
         return false;
+    for (const std::string &note : rig.notes)
+        log_warning("%s", note.c_str());
+    if (line.check)
+        return true;
     sim::Simulation simulation(config, rig, seed);
     if (!simulation.set_tool(static_cast<int>(line.tool))) {
         *error = std::string(line.config) + ": there is no tool " + std::to_string(line.tool);
@@ -146,6 +151,8 @@ int main(int argc, char **argv)
         return name_renderer();
     if (start(line, &error))
         return 0;
-    log_error("%s", error.c_str());
+    std::istringstream lines(error);
+    for (std::string text; std::getline(lines, text);)
+        log_error("%s", text.c_str());
     return 1;
 }

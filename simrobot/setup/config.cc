@@ -33,7 +33,8 @@ const struct option_row robot_rows[] = {
     {"robot.right_eye", OPTION_TEXT, AT(right_eye), nullptr, "", 0, 0,
      "link of the right eye: x along the optical axis, z up; empty = no eyes", nullptr},
     {"robot.start", OPTION_LIST, AT(start), "deg", "[]", -36000, 36000,
-     "joint angles at the start and after a reset: the arm's, then the head's; empty = all 0",
+     "joint angles at the start and after a reset: the arm's, then the head's; a joint that slides "
+     "in m; empty = all 0, or the middle of a range without 0",
      nullptr},
     {"robot.hard_stops", OPTION_BOOL, AT(hard_stops), nullptr, "true", 0, 0,
      "true = mechanical stops at the URDF's limits; false = joints can pass their limits, so that "
@@ -41,6 +42,9 @@ const struct option_row robot_rows[] = {
     {"robot.collisions", OPTION_BOOL, AT(collisions), nullptr, "false", 0, 0,
      "true = the URDF's <collision> shapes and the tool stop each other; false = they pass "
      "through each other", nullptr},
+    {"robot.repair_inertia", OPTION_BOOL, AT(repair_inertia), nullptr, "false", 0, 0,
+     "true = a link that moves without a mass, or with an inertia that no body has, takes that of a "
+     "ball of water; false = it is refused", nullptr},
     {"motor.arm_acceleration", OPTION_NUMBER, AT(arm_acceleration), "deg/s2", "600", 10, 100000,
      "greatest acceleration that the motor drivers of the arm allow", nullptr},
     {"motor.head_acceleration", OPTION_NUMBER, AT(head_acceleration), "deg/s2", "1500", 10, 100000,

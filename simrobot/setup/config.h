@@ -41,6 +41,7 @@ struct Config {
     struct option_list start;
     bool hard_stops;
     bool collisions;
+    bool repair_inertia;
 
     double arm_acceleration;
     double head_acceleration;

@@ -7,53 +7,84 @@ namespace sim
 namespace
 {
 
-/* A stop is stiff rubber: pushed with all of its motor's effort a joint passes it by this much
- * (rad), and at its limit speed the rubber's damping alone takes so many times that effort. A stop
- * of steel ends the motion within one step, and that blow throws the joints further out: one of the
- * shipped robots then went at three times its limit speed. */
-const double stop_yields = 0.1 * M_PI / 180, stop_damps = 2;
+/* A stop is a rubber buffer: pushed with all of its motor's effort a joint passes it by this much
+ * (rad, m), and at its limit speed the rubber's damping alone takes so many times that effort. A
+ * stop of steel ends the motion within one step, and that blow throws the joints further out, whose
+ * motors are weak: one of the shipped robots then went at three times its limit speed. */
+const double hinge_yields = 1 * M_PI / 180, slider_yields = 0.002, stop_damps = 2;
 
 } // namespace
 
 Joint::Joint(World &world, const Segment &segment, const Eigen::Isometry3d &frame, dBodyID body,
              dBodyID parent, bool has_stops)
-    : hinge_(dJointCreateHinge(world.id(), nullptr))
+    : axis_(frame.linear() * segment.axis), body_(body), parent_(parent), slides_(segment.slides)
 {
-    Eigen::Vector3d axis = frame.linear() * segment.axis;
-
-    dJointAttach(hinge_, body, parent);
-    dJointSetHingeAnchor(hinge_, frame.translation().x(), frame.translation().y(),
-                         frame.translation().z());
-    dJointSetHingeAxis(hinge_, axis.x(), axis.y(), axis.z());
-    dJointSetHingeParam(hinge_, dParamFMax, segment.effort);
-    dJointSetHingeParam(hinge_, dParamVel, 0);
-    if (has_stops && std::isfinite(segment.lower))
-        add_stop(world, segment, axis, body, parent);
+    if (slides_)
+        make_slider(world, segment);
+    else
+        make_hinge(world, segment, frame.translation());
+    if (!has_stops || !std::isfinite(segment.lower))
+        return;
+    if (!slides_)
+        make_angle_stop(world);
+    set_stop(world.step_length(), segment);
 }
 
-/* An angular motor without a motor: its stops look at the angle that drive() tells it. ERP and CFM
- * make a stop an implicit spring-damper, as in tool.cc. */
-void Joint::add_stop(World &world, const Segment &segment, const Eigen::Vector3d &axis,
-                     dBodyID body, dBodyID parent)
+void Joint::make_hinge(World &world, const Segment &segment, const Eigen::Vector3d &anchor)
 {
-    double spring = segment.effort / stop_yields * world.step_length();
-    double damper = stop_damps * segment.effort / segment.velocity;
+    joint_ = dJointCreateHinge(world.id(), nullptr);
+    dJointAttach(joint_, body_, parent_);
+    dJointSetHingeAnchor(joint_, anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(joint_, axis_.x(), axis_.y(), axis_.z());
+    dJointSetHingeParam(joint_, dParamFMax, segment.effort);
+    dJointSetHingeParam(joint_, dParamVel, 0);
+}
 
+void Joint::make_slider(World &world, const Segment &segment)
+{
+    joint_ = dJointCreateSlider(world.id(), nullptr);
+    dJointAttach(joint_, body_, parent_);
+    dJointSetSliderAxis(joint_, axis_.x(), axis_.y(), axis_.z());
+    motor_ = dJointCreateLMotor(world.id(), nullptr);
+    dJointAttach(motor_, body_, parent_);
+    dJointSetLMotorNumAxes(motor_, 1);
+    dJointSetLMotorAxis(motor_, 0, parent_ ? 2 : 0, axis_.x(), axis_.y(), axis_.z());
+    dJointSetLMotorParam(motor_, dParamFMax, segment.effort);
+    dJointSetLMotorParam(motor_, dParamVel, 0);
+}
+
+/* An angular motor without a motor: its stops look at the angle that drive() tells it, where those
+ * of a hinge know an angle within one turn only. */
+void Joint::make_angle_stop(World &world)
+{
     stop_ = dJointCreateAMotor(world.id(), nullptr);
-    dJointAttach(stop_, body, parent);
+    dJointAttach(stop_, body_, parent_);
     dJointSetAMotorMode(stop_, dAMotorUser);
     dJointSetAMotorNumAxes(stop_, 1);
-    dJointSetAMotorAxis(stop_, 0, 1, axis.x(), axis.y(), axis.z());
-    dJointSetAMotorParam(stop_, dParamStopERP, spring / (spring + damper));
-    dJointSetAMotorParam(stop_, dParamStopCFM, 1 / (spring + damper));
-    dJointSetAMotorParam(stop_, dParamLoStop, segment.lower);
-    dJointSetAMotorParam(stop_, dParamHiStop, segment.upper);
+    dJointSetAMotorAxis(stop_, 0, 1, axis_.x(), axis_.y(), axis_.z());
+}
+
+/* ERP and CFM make a stop an implicit spring-damper, as in tool.cc. */
+void Joint::set_stop(double step, const Segment &segment)
+{
+    double spring = segment.effort / (slides_ ? slider_yields : hinge_yields) * step;
+    double damper = stop_damps * segment.effort / segment.velocity;
+    auto *set = slides_ ? dJointSetSliderParam : dJointSetAMotorParam;
+    dJointID stop = slides_ ? joint_ : stop_;
+
+    set(stop, dParamStopERP, spring / (spring + damper));
+    set(stop, dParamStopCFM, 1 / (spring + damper));
+    set(stop, dParamLoStop, segment.lower);
+    set(stop, dParamHiStop, segment.upper);
 }
 
 void Joint::drive(double speed)
 {
     last_ = position();
-    dJointSetHingeParam(hinge_, dParamVel, speed);
+    if (slides_)
+        dJointSetLMotorParam(motor_, dParamVel, speed);
+    else
+        dJointSetHingeParam(joint_, dParamVel, speed);
     if (stop_)
         dJointSetAMotorAngle(stop_, 0, last_);
 }
@@ -61,14 +92,16 @@ void Joint::drive(double speed)
 double Joint::position() const
 {
     const double turn = 2 * M_PI;
-    double within_turn = dJointGetHingeAngle(hinge_);
 
+    if (slides_)
+        return dJointGetSliderPosition(joint_);
+    double within_turn = dJointGetHingeAngle(joint_);
     return within_turn + turn * std::round((last_ - within_turn) / turn);
 }
 
 double Joint::velocity() const
 {
-    return dJointGetHingeAngleRate(hinge_);
+    return slides_ ? dJointGetSliderPositionRate(joint_) : dJointGetHingeAngleRate(joint_);
 }
 
 } // namespace sim

@@ -8,14 +8,15 @@
 namespace sim
 {
 
-/* Motor and stop are joints of their own, because ODE throws a joint on which both sit: at the stop
- * it turns the motor's whole torque into a push. The stop goes by the counted angle, because ODE
- * knows an angle within one turn only. */
+/* Turns, or slides, in which case angles are metres here, and torques newtons. Motor and stop are
+ * joints of their own, because ODE throws a joint on which both sit: at the stop it turns the
+ * motor's whole torque into a push. */
 class Joint
 {
 public:
     /* `frame`: the segment's, in which both bodies stand now, at angle 0. The world owns what is
-     * made here; `parent` nullptr: the base, which stands still. */
+     * made here; `parent` nullptr: the base, which stands still. An endless effort makes a gear of
+     * the motor: what it is told to do it does. */
     Joint(World &world, const Segment &segment, const Eigen::Isometry3d &frame, dBodyID body,
           dBodyID parent, bool has_stops);
 
@@ -33,12 +34,18 @@ public:
     double velocity() const;
 
 private:
-    void add_stop(World &world, const Segment &segment, const Eigen::Vector3d &axis, dBodyID body,
-                  dBodyID parent);
+    void make_hinge(World &world, const Segment &segment, const Eigen::Vector3d &anchor);
+    void make_slider(World &world, const Segment &segment);
+    void make_angle_stop(World &world);
+    void set_stop(double step, const Segment &segment);
 
-    dJointID hinge_;
-    dJointID stop_ = nullptr;
-    double last_ = 0; /* position at the last step */
+    Eigen::Vector3d axis_;
+    dBodyID body_, parent_;
+    bool slides_;
+    dJointID joint_ = nullptr; /* hinge or slider */
+    dJointID motor_ = nullptr; /* a slider's: a hinge has its own */
+    dJointID stop_ = nullptr;  /* a hinge's, if it has any: a slider has its own */
+    double last_ = 0;          /* position at the last step */
 };
 
 } // namespace sim

@@ -25,7 +25,7 @@ void Robot::add_segment(World &world, const Config &config, size_t index)
 {
     const Segment &segment = rig_.description.segments[index];
     Eigen::Isometry3d frame =
-        rig_forward(rig_, std::vector<double>(rig_.joints.size(), 0.0))[index];
+        rig_poses(rig_, std::vector<double>(rig_.description.segments.size(), 0.0))[index];
     dBodyID body = dBodyCreate(world.id());
 
     body_set_mass(body, segment.mass, segment.inertia);
@@ -37,7 +37,8 @@ void Robot::add_segment(World &world, const Config &config, size_t index)
 
 void Robot::reset(const std::vector<double> &angles)
 {
-    std::vector<Eigen::Isometry3d> poses = rig_forward(rig_, angles);
+    std::vector<double> positions = rig_positions(rig_, angles);
+    std::vector<Eigen::Isometry3d> poses = rig_poses(rig_, positions);
 
     for (size_t i = 1; i < bodies_.size(); i++) {
         const Segment &segment = rig_.description.segments[i];
@@ -45,10 +46,8 @@ void Robot::reset(const std::vector<double> &angles)
         dBodySetLinearVel(bodies_[i], 0, 0, 0);
         dBodySetAngularVel(bodies_[i], 0, 0, 0);
         motors_[i].target = motors_[i].speed = 0;
-        joints_[i - 1].put(0);
+        joints_[i - 1].put(positions[i]);
     }
-    for (size_t i = 0; i < angles.size(); i++)
-        joints_[static_cast<size_t>(rig_.joints[i]) - 1].put(angles[i]);
 }
 
 void Robot::command(const std::vector<double> &velocities)
@@ -64,9 +63,22 @@ void Robot::drive_motors()
 {
     for (size_t i = 1; i < motors_.size(); i++) {
         double most = motors_[i].acceleration * step_;
-        motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
+        if (rig_.description.segments[i].leader >= 0)
+            motors_[i].speed = speed_of_follower(rig_.description.segments[i], joints_[i - 1]);
+        else
+            motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
         joints_[i - 1].drive(motors_[i].speed);
     }
+}
+
+/* As a gear from its leader; what it has fallen behind is caught up within some steps. */
+double Robot::speed_of_follower(const Segment &segment, const Joint &follower) const
+{
+    const double share = 0.2; /* as much as ODE takes back of other joints' errors */
+    const Joint &leader = joint(segment.leader);
+    double behind = segment.multiplier * leader.position() + segment.offset - follower.position();
+
+    return segment.multiplier * leader.velocity() + share * behind / step_;
 }
 
 std::vector<double> Robot::positions() const

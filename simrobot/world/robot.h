@@ -9,8 +9,8 @@
 namespace sim
 {
 
-/* Joints are in the order of the messages (Rig::joints); joints that the configuration does not
- * name are held at 0 by their motors. */
+/* Joints are in the order of the messages (Rig::joints); those that follow one of them (<mimic>) go
+ * with it. */
 class Robot
 {
 public:
@@ -50,6 +50,7 @@ private:
     };
 
     void add_segment(World &world, const Config &config, size_t index);
+    double speed_of_follower(const Segment &segment, const Joint &follower) const;
     const Joint &joint(int segment) const
     {
         return joints_[static_cast<size_t>(segment) - 1];
