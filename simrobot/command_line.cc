@@ -35,6 +35,8 @@ const argument_row rows[] = {
         "eyes is seen from its two sides"),
     ARGUMENT_INT64("bench-eyes", "N", CommandLine, bench_eyes, 1, 1000000,
                    "draw and encode N image pairs, print the time of each part, and exit"),
+    ARGUMENT_TEXT("package-path", 0, "DIR[:DIR...]", CommandLine, package_path,
+                  "robot.package_path: where packages are, for meshes named package://..."),
     ARGUMENT_ON("check", 0, CommandLine, check,
                 "say what is wrong, guessed or left out in configuration and URDF, and exit"),
     ARGUMENT_ON("renderer", 0, CommandLine, renderer,

@@ -11,7 +11,8 @@ namespace sim
 
 /* Texts are argv's; nullptr where nothing was given. */
 struct CommandLine {
-    const char *config = nullptr, *url = nullptr, *truth_url = nullptr, *snapshot = nullptr;
+    const char *config = nullptr, *url = nullptr, *truth_url = nullptr, *snapshot = nullptr,
+               *package_path = nullptr;
     const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
     int n_overrides = 0;
     bool lockstep = true;

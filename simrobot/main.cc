@@ -14,6 +14,8 @@
 #include "simrobot/eyes/tasks.h"
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
+#include "simrobot/setup/meshes.h"
+#include "simrobot/world/strength.h"
 
 namespace
 {
@@ -106,6 +108,11 @@ bool start(const sim::CommandLine &line, std::string *error)
     if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
         !sim::rig_load(config, &rig, error))
         return false;
+    if (rig.has_eyes || line.snapshot || line.check)
+        sim::meshes_load(line.package_path ? line.package_path : config.package_path,
+                         &rig.description, &rig.notes);
+    for (const std::string &note : sim::strength_notes(rig, config.ball_mass))
+        rig.notes.push_back(note);
     for (const std::string &note : rig.notes)
         log_warning("%s", note.c_str());
     if (line.check)

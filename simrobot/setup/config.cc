@@ -21,6 +21,8 @@ const struct option_row robot_rows[] = {
     {"robot.urdf", OPTION_TEXT, AT(urdf), nullptr, nullptr, 0, 0,
      "URDF file of the robot; a relative path starts at the folder of the configuration file",
      nullptr},
+    {"robot.package_path", OPTION_TEXT, AT(package_path), nullptr, "", 0, 0,
+     "folders of packages, for meshes whose file is package://NAME/...; separated by ':'", nullptr},
     {"robot.arm_joints", OPTION_TEXT, AT(arm_joints), nullptr, nullptr, 0, 0,
      "names of the arm's joints in the order of the messages, separated by spaces", nullptr},
     {"robot.head_joints", OPTION_TEXT, AT(head_joints), nullptr, "", 0, 0,

@@ -33,6 +33,7 @@ struct ToolConfig {
 
 struct Config {
     char urdf[OPTION_MAX_TEXT];
+    char package_path[OPTION_MAX_TEXT];
     char arm_joints[OPTION_MAX_TEXT];
     char head_joints[OPTION_MAX_TEXT];
     char hand_link[OPTION_MAX_TEXT];

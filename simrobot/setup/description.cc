@@ -183,8 +183,8 @@ private:
                            : Eigen::Vector3f(0.7f, 0.7f, 0.7f);
         if (visual.geometry && visual.geometry->type == urdf::Geometry::MESH) {
             const auto &mesh = static_cast<const urdf::Mesh &>(*visual.geometry);
-            description_->meshes.push_back(
-                {index, link.name, mesh.filename, vector_of(mesh.scale), shape.pose, shape.colour});
+            description_->meshes.push_back({index, link.name, mesh.filename, vector_of(mesh.scale),
+                                            shape.pose, visual.material != nullptr, shape.colour});
         } else if (set_shape(link, "visual", visual.geometry, &shape)) {
             segment(index).shapes.push_back(shape);
         }

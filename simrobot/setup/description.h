@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,20 @@
 namespace sim
 {
 
-enum class ShapeKind { sphere, cylinder, box, capsule };
+enum class ShapeKind { sphere, cylinder, box, capsule, mesh };
+
+using Triangles =
+    std::vector<Eigen::Vector3f>; /* three corners each, counter-clockwise from outside */
 
 /* Something to be drawn, to hide what is behind it, or to bump into. Cylinder and capsule lie along
  * z. */
 struct Shape {
     ShapeKind kind;
-    Eigen::Vector3d size; /* box: edges; sphere: radius; else radius, length (without caps) */
+    Eigen::Vector3d size; /* box: edges; sphere: radius; mesh: radius of a sphere about its origin
+                           * that holds it; else radius, length (without caps) */
     Eigen::Isometry3d pose;
     Eigen::Vector3f colour;
+    std::shared_ptr<const Triangles> triangles = nullptr; /* of a mesh, in its own frame */
 };
 
 /* URDF's <visual> of a mesh, which is read only when somebody looks (meshes.h). */
@@ -34,6 +40,7 @@ struct MeshVisual {
     std::string link, file; /* as the URDF has them */
     Eigen::Vector3d scale;
     Eigen::Isometry3d pose; /* in the segment's frame */
+    bool has_colour;        /* in the URDF; otherwise the file's counts */
     Eigen::Vector3f colour;
 };
 

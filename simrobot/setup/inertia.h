@@ -20,8 +20,8 @@ Inertia inertia_sum(const Inertia &one, const Inertia &other);
 /* The same body seen from another frame. */
 Inertia inertia_moved(const Inertia &inertia, const Eigen::Isometry3d &frame);
 
-/* Why no link can be so; "" if one can. A small part may be a point or a thin rod, and in some files
- * its moments are those of no body: that matters only to the sum of what moves together. */
+/* Why no link can be so; "" if one can. A small part may be a point or a thin rod, and in some
+ * files its moments are those of no body: that matters only to the sum of what moves together. */
 std::string inertia_impossible(const Inertia &link);
 
 /* Why what moves together cannot be so; "" if it can. */
