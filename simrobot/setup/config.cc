@@ -23,9 +23,10 @@ const struct option_row robot_rows[] = {
      nullptr},
     {"robot.package_path", OPTION_TEXT, AT(package_path), nullptr, "", 0, 0,
      "folders of packages, for meshes whose file is package://NAME/...; separated by ':'", nullptr},
-    {"robot.arm_joints", OPTION_TEXT, AT(arm_joints), nullptr, nullptr, 0, 0,
-     "names of the arm's joints in the order of the messages, separated by spaces", nullptr},
-    {"robot.head_joints", OPTION_TEXT, AT(head_joints), nullptr, "", 0, 0,
+    {"robot.arm_joints", OPTION_NAMES, AT(arm_joints), nullptr, nullptr, 0, 0,
+     "names of the arm's joints in the order of the messages: [a, b], or a b where no name has a "
+     "blank", nullptr},
+    {"robot.head_joints", OPTION_NAMES, AT(head_joints), nullptr, "", 0, 0,
      "names of the head's joints: yaw (positive to the left), then pitch (positive down); empty = "
      "no head", nullptr},
     {"robot.hand_link", OPTION_TEXT, AT(hand_link), nullptr, nullptr, 0, 0,

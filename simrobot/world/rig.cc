@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 namespace sim
@@ -17,8 +16,12 @@ const double rounding = 1e-4;
 
 std::vector<std::string> words_of(const char *names)
 {
-    std::istringstream words(names);
-    return {std::istream_iterator<std::string>(words), {}};
+    std::istringstream lines(names);
+    std::vector<std::string> words;
+
+    for (std::string line; std::getline(lines, line);)
+        words.push_back(line);
+    return words;
 }
 
 /* Finds what the configuration names in a robot; everything that is wrong is gathered. */

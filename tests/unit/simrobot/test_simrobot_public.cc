@@ -297,6 +297,15 @@ START_TEST(test_all_that_is_wrong_is_said_at_once)
 }
 END_TEST
 
+START_TEST(test_joint_names_may_have_blanks)
+{
+    UrdfFile file(replaced(replaced(arm(turning), "name='one'", "name='the shoulder'"),
+                           "name='two'", "name='an elbow'"));
+    assert_taken(complaint(file, {}, "robot.arm_joints=[the shoulder, an elbow]"));
+    assert_says(complaint(file, {}, "robot.arm_joints=the shoulder"), {"joint the is missing"});
+}
+END_TEST
+
 START_TEST(test_xacro_says_what_to_run)
 {
     UrdfFile file(replaced(arm(turning), "<link name='hand'/>",
@@ -324,6 +333,7 @@ int main()
                             test_a_joint_that_follows_another_does,
                             test_a_joint_that_slides_does,
                             test_all_that_is_wrong_is_said_at_once,
+                            test_joint_names_may_have_blanks,
                             test_xacro_says_what_to_run};
     return SUITE_RUN("simrobot public", tests);
 }
