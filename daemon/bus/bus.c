@@ -289,11 +289,6 @@ void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
     sem_post(&bus->to_send);
 }
 
-void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command)
-{
-    reach_robot_command_t_publish(bus->lcm, "ROBOT_COMMAND", command);
-}
-
 void daemon_bus_raise_emergency(struct daemon_bus *bus)
 {
     atomic_store_explicit(&bus->emergency, true, memory_order_release);
