@@ -38,7 +38,7 @@ LIBRARY = {
     "sqrt", "exp", "log", "log1p", "pow", "ceil", "floor", "fmod", "sin", "cos", "tan", "atan",
     "atan2",
     "lgamma", "round", "llround", "hypot", "cbrt", "acos", "asin", "fmin", "fmax", "ldexp", "frexp",
-    "clock_gettime", "clock_nanosleep", "nanosleep", "getrusage", "sem_post", "sem_timedwait",
+    "clock_gettime", "clock_nanosleep", "nanosleep", "getrusage", "sem_post", "sem_clockwait",
     "__errno_location", "__stack_chk_fail", "__assert_fail",
 }  # fmt: skip
 # What may be reached from BRAKE. LCM's encoder is generated: it stores numbers into a buffer.

@@ -11,7 +11,7 @@ static const double differs = 0.035; /* rad, two degrees */
 
 static void set_deadline(struct tour *tour, const struct senses *senses)
 {
-    tour->deadline = senses->now + (int64_t)(senses->config->babble_timeout * 1e6);
+    tour->deadline = senses->time + (int64_t)(senses->config->babble_timeout * 1e6);
 }
 
 static double lowest(const struct config *config, int i)
@@ -57,7 +57,7 @@ bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wan
         begin(tour, senses);
     if (tour->joint >= n)
         return false;
-    if (!control_arm_to(senses, wants, tour->goal) && senses->now < tour->deadline)
+    if (!control_arm_to(senses, wants, tour->goal) && senses->time < tour->deadline)
         return true;
     tour->joint += tour->back;
     tour->back = !tour->back;
@@ -70,7 +70,7 @@ void tour_visit_postures(struct tour *tour, struct random_state *random,
 {
     const struct config *config = senses->config;
 
-    if (!control_arm_to(senses, wants, tour->goal) && senses->now < tour->deadline)
+    if (!control_arm_to(senses, wants, tour->goal) && senses->time < tour->deadline)
         return;
     for (int i = 0; i < config_arm_joints(config); i++)
         tour->goal[i] = random_uniform(random, lowest(config, i), highest(config, i));
