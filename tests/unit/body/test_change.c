@@ -258,6 +258,8 @@ START_TEST(a_new_tool_is_no_change)
         for (int k = 0; k < 8; k++) {
             double tip[3];
             random_tip(tip);
+            for (int r = 0; r < 3 && k >= 4; r++) /* nearly the hand */
+                tip[r] = hand[r] + 0.1 * tip[r];
             teach(learner, &body, tip, 100);
             teach(learner, &body, k % 2 ? hand : stick, 60);
         }
