@@ -75,6 +75,9 @@ static enum learner_update_result update(void *self, const double *z, const doub
     double joints[LEARNER_MAX_INPUTS];
 
     order_to_chain(&learner->config, z, joints);
+    if (learner->found && body_try(learner, z, x))
+        return LEARNER_UPDATED;
+    learner->contexts->firm = !learner->doubtful;
     if (learner->found)
         return contexts_learn(learner->contexts, joints, x);
     kept_add(&learner->waiting, joints, x);
@@ -196,8 +199,16 @@ static int give_body(void *self, const struct body *body, char *err, size_t err_
     }
     if (body_check(body, err, err_size) != 0)
         return -1;
+    if (learner->given_up > 0.0 && body->error * body->error >= learner->given_up) {
+        snprintf(err, err_size,
+                 "polynomials foretell better than a body that is off by %.1f times "
+                 "the noise",
+                 body->error);
+        return -1;
+    }
     learner->found = true;
-    imle_forget(learner->meanwhile); /* it has answered for the last time */
+    learner->given_up = 0.0;
+    body_begin_trial(learner, body);
     contexts_stand_on(learner->contexts, body);
     for (int i = 0; first && i < waiting->n; i++)
         contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,

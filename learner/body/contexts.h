@@ -72,6 +72,7 @@ struct contexts {
     int most;           /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
     int n;              /* 0 .. most + 1 */
     double births;      /* of contexts, ever */
+    bool firm;          /* the body explains its samples: what it does not is a change of it */
     double looked;      /* samples since it was last asked whether something has changed */
     double streak;      /* samples since one was not understood, while that is not settled */
     double streak_left; /* samples until it is */

@@ -223,7 +223,7 @@ bool follow_look(struct contexts *contexts)
     struct change_story best = {.cause = -1, .gain = convincing};
     bool astray = contexts->streak_left > 0.0;
 
-    if (contexts->looked < (astray ? LOOK_EACH_ASTRAY : LOOK_EACH))
+    if (!contexts->firm || contexts->looked < (astray ? LOOK_EACH_ASTRAY : LOOK_EACH))
         return false;
     fade(contexts, contexts->looked);
     contexts->looked = 0.0;

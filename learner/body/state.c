@@ -9,7 +9,7 @@
 #include "learner/body/state_private.h"
 
 /* One number a field, so that no padding is saved. */
-enum { HEAD = 9 + CHANGE_VIEW };
+enum { HEAD = 15 + CHANGE_VIEW };
 
 static size_t fixed_numbers(const struct body_learner *learner)
 {
@@ -23,6 +23,16 @@ size_t body_state_size(const void *self, int n_experts)
 
     return fixed_numbers(learner) * sizeof(double) +
            learner_imle_ops.state_size(learner->meanwhile, n_experts);
+}
+
+static void write_trial(const struct body_learner *learner, double *head)
+{
+    head[0] = learner->doubtful;
+    head[1] = learner->given_up;
+    head[2] = learner->contest.rows;
+    head[3] = learner->contest.scored;
+    head[4] = learner->contest.polynomial;
+    head[5] = learner->contest.body;
 }
 
 static void write_news(const struct contexts *contexts, double *head)
@@ -43,7 +53,8 @@ void body_save(const void *self, unsigned char *buffer)
                          learner->contexts->births};
     double numbers[BODY_NUMBERS];
 
-    write_news(learner->contexts, head + 4);
+    write_trial(learner, head + 4);
+    write_news(learner->contexts, head + 10);
     state_write(&writer, HEAD, head);
     body_to_numbers(&learner->body, numbers);
     state_write(&writer, BODY_NUMBERS, numbers);
@@ -65,6 +76,20 @@ static void read_body(struct reader *reader, bool found, int n_joints, struct bo
                                     body_check(&other, ignored, sizeof ignored) == 0));
     if (reader->into_place)
         *body = other;
+}
+
+static bool read_trial(struct reader *reader, const double *head, struct body_learner *learner)
+{
+    bool doubtful = state_whole(reader, head[0], 0, 1) != 0;
+
+    for (int k = 1; k < 6; k++)
+        state_demand(reader, head[k] >= 0.0 && head[k] < state_most_counted);
+    if (!reader->into_place)
+        return doubtful;
+    learner->doubtful = doubtful;
+    learner->given_up = head[1];
+    learner->contest = (struct contest){head[2], head[3], head[4], head[5]};
+    return doubtful;
 }
 
 static void read_news(struct reader *reader, const double *head, struct contexts *contexts)
@@ -91,12 +116,14 @@ static int read_all(struct reader *reader, struct body_learner *learner)
     double head[HEAD];
 
     state_read_head(reader, HEAD, head);
-    read_news(reader, head + 4, contexts);
+    bool doubtful = read_trial(reader, head + 4, learner);
+    read_news(reader, head + 10, contexts);
     state_demand(reader, head[3] >= 0.0 && head[3] < state_most_counted &&
                              head[3] == (double)(int64_t)head[3]);
     bool found = state_whole(reader, head[0], 0, 1) != 0;
     int n = state_whole(reader, head[1], 0, found ? contexts->most + 1 : 0);
-    int meanwhile = state_whole(reader, head[2], 0, found ? 0 : learner->config.capacity);
+    int meanwhile =
+        state_whole(reader, head[2], 0, found && !doubtful ? 0 : learner->config.capacity);
     read_body(reader, found, learner->config.n_inputs, &learner->body);
     if (reader->into_place) {
         learner->found = found;
