@@ -101,9 +101,24 @@ static void sets_to_json(const struct request *request, const struct report_resu
     json_end_object(json);
 }
 
-/* Of the newest search; `found` says whether the learner stands on a body. */
-static void body_to_json(const struct seeker *seeker, struct json *json)
+/* The newest change's cause by its number, from 1: an input, or "view". */
+static void change_to_json(const struct learner_body_change *change, int n_inputs,
+                           struct json *json)
 {
+    json_count(json, "changes", (size_t)change->changes);
+    if (change->cause >= n_inputs)
+        json_text(json, "changed", "view");
+    else if (change->cause >= 0)
+        json_count(json, "changed", (size_t)change->cause + 1);
+    if (change->cause >= 0)
+        json_numbers(json, "changed_by", change->cause < n_inputs ? 1 : 3, change->by);
+    json_number(json, "slip", change->slip);
+}
+
+/* Of the newest search; `found` says whether the learner stands on a body. */
+static void body_to_json(const struct report_result *result, int n_inputs, struct json *json)
+{
+    const struct seeker *seeker = &result->seeker;
     static const char *const outcomes[] = {"found", "not yet", "no chain"};
     const struct finder_report *newest = &seeker->report;
 
@@ -119,6 +134,7 @@ static void body_to_json(const struct seeker *seeker, struct json *json)
     json_number(json, "seconds", seeker->seconds);
     json_count(json, "found_at", (size_t)seeker->found_at);
     json_number(json, "found_seconds", seeker->found > 0 ? seeker->found_seconds : NAN);
+    change_to_json(&result->change, n_inputs, json);
     json_end_object(json);
 }
 
@@ -137,7 +153,7 @@ static void result_to_json(const struct request *request, const struct report_re
     json_count(json, "refused", statistics->refused);
     json_count(json, "frozen", result->frozen);
     if (result->has_body)
-        body_to_json(&result->seeker, json);
+        body_to_json(result, request->n_inputs, json);
     durations_to_json(&result->update, "update_us", json);
     durations_to_json(&result->predict, "predict_us", json);
     sets_to_json(request, result, false, json);

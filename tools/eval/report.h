@@ -24,6 +24,7 @@ struct report_result {
     size_t frozen;                    /* samples whose outputs stood still while inputs moved */
     bool has_body;                    /* experts: body; then */
     struct seeker seeker;             /* what was found of it */
+    struct learner_body_change change; /* and what has changed since */
     struct durations_summary update;  /* of the updates since the result before */
     struct durations_summary predict; /* of this result's predictions */
     struct report_set *sets;          /* in the order of the request's */
