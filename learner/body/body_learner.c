@@ -295,6 +295,7 @@ const struct learner_ops learner_body_ops = {
     .state_size = body_state_size,
     .give_body = give_body,
     .body = body_of,
+    .not_rigid = body_not_rigid,
     .body_change = change_of,
     .kept_samples = kept_samples,
     .save = body_save,

@@ -40,6 +40,9 @@ void body_begin_trial(struct body_learner *learner, const struct body *body);
 /* inverse.c: as learner_predict_inverse(). */
 int body_predict_inverse(void *self, const double *x, struct learner_inverse *inverse);
 
+/* rigid.c: as learner_not_rigid(). */
+int body_not_rigid(void *self, double *share);
+
 /* state.c: the state as bytes, and back. */
 size_t body_state_size(const void *self, int n_experts);
 void body_save(const void *self, unsigned char *buffer);

@@ -135,6 +135,8 @@ static void body_to_json(const struct report_result *result, int n_inputs, struc
     json_count(json, "found_at", (size_t)seeker->found_at);
     json_number(json, "found_seconds", seeker->found > 0 ? seeker->found_seconds : NAN);
     change_to_json(&result->change, n_inputs, json);
+    if (result->has_rest)
+        json_numbers(json, "not_rigid", 3, result->not_rigid);
     json_end_object(json);
 }
 
@@ -250,6 +252,14 @@ void report_print(const struct request *request, const struct report_result *res
     if (result->has_body && result->seeker.searches > 0)
         fprintf(out, "  body: %s, %d searches, %.1f s\n", result->seeker.report.why,
                 result->seeker.searches, result->seeker.seconds);
+    if (result->has_rest)
+        fprintf(out, "  no rigid chain explains %.3g %.3g %.3g of the outputs\n",
+                result->not_rigid[0], result->not_rigid[1], result->not_rigid[2]);
+    if (result->change.changes > 0)
+        fprintf(out, "  the body has changed %llu times, the last in %s %d\n",
+                (unsigned long long)result->change.changes,
+                result->change.cause < request->n_inputs ? "joint" : "the view, number",
+                result->change.cause + 1);
     for (int i = 0; i < request->n_sets; i++)
         print_set(&request->sets[i], &result->sets[i], out);
     fflush(out);
