@@ -1,6 +1,7 @@
 #include "daemon/replay/player.h"
 
 #include "common/bus/open.h"
+#include "common/options/regular_file.h"
 #include "common/program/log.h"
 #include "common/program/version.h"
 #include "daemon/bus/outgoing.h"
@@ -93,14 +94,12 @@ static int replay_file(FILE *file, const struct replay_settings *settings, char 
 int player_play_log(const char *path, const struct replay_settings *settings, char *error,
                     size_t error_size)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file = regular_file_open(path, error, error_size);
     char reason[512];
     int result;
 
-    if (!file) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+    if (!file)
         return -1;
-    }
     result = replay_file(file, settings, reason, sizeof reason);
     if (result)
         snprintf(error, error_size, "%s: %s", path, reason);
