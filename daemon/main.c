@@ -2,9 +2,11 @@
 #include "common/base/arena.h"
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
+#include "daemon/body_start.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
 #include "daemon/control/tick.h"
+#include "daemon/finder_of_bus.h"
 #include "daemon/housekeeping/housekeeping.h"
 #include "daemon/model_of_store.h"
 #include "daemon/realtime/loop.h"
@@ -31,6 +33,8 @@ struct reachd {
     lcm_t *lcm;
     struct bus_claim *claim;
     struct arena *arena;
+    struct finder_of_bus finder;
+    struct body body_start;
     struct model_store *store;
     struct tick *tick;
     struct daemon_bus *bus;
@@ -92,9 +96,14 @@ static int check_model_directory(const struct config *config, char *error, size_
 /* The control step, and who keeps its model, from which it goes on. */
 static int build_tick(struct reachd *reachd, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = model_of_store_settings(&reachd->config);
     struct tick_settings tick = {.config = &reachd->config};
+    struct model_store_settings settings;
+    const struct body *start;
 
+    finder_of_bus_init(&reachd->finder);
+    if (body_start_read(&reachd->config, &reachd->body_start, &start, error, error_size))
+        return -1;
+    settings = model_of_store_settings(&reachd->config, &reachd->finder.port, start);
     reachd->store = model_store_create(&settings, reachd->arena, error, error_size);
     if (!reachd->store)
         return -1;
@@ -123,6 +132,7 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
         daemon_bus_create(reachd->lcm, reachd->config.space.kind, reachd->arena, error, error_size);
     if (!reachd->bus)
         return -1;
+    reachd->finder.bus = reachd->bus;
     reachd->watchdog = watchdog_create(&reachd->config, reachd->bus, !lockstep, reachd->arena);
     reachd->loop = loop_create(&reachd->config, reachd->tick, reachd->bus, reachd->watchdog,
                                lockstep, real_time, reachd->arena);
@@ -140,6 +150,7 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
 static void tear_down(struct reachd *reachd)
 {
     model_store_close(reachd->store);
+    finder_of_bus_end(&reachd->finder);
     if (reachd->lcm)
         lcm_destroy(reachd->lcm);
     bus_claim_free(reachd->claim);
@@ -157,7 +168,7 @@ static struct reload reload_of(const struct reachd *reachd)
 
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = model_of_store_settings(config);
+    const struct model_store_settings settings = model_of_store_settings(config, NULL, NULL);
 
     if (model_store_check(&settings, error, error_size))
         return -1;
@@ -234,8 +245,9 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
         .verify = arguments->verify,
     };
 
-    if (arguments->replay)
-        return player_play_log(arguments->replay, &settings, error, error_size);
+    if (arguments->n_replay > 0)
+        return player_play_log(arguments->replay, arguments->n_replay, &settings, error,
+                               error_size);
     housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
@@ -255,7 +267,7 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
 
 static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
-    if (reachd->arguments.replay || reachd->arguments.replay_clock)
+    if (reachd->arguments.n_replay > 0 || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
     if (check_model_directory(&reachd->config, error, error_size))
         return -1;

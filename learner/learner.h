@@ -85,6 +85,10 @@ struct learner_body_config {
     enum learner_body_space space; /* LEARNER_BODY_PLACE */
     bool degrees;                  /* yaw and pitch are in degrees; false */
     int starts;                    /* most random starts of one search, >= 1; 40 */
+    /* Which input each joint is, from the base to the tip, counted from 0; 0, 1, 2, ... */
+    int order[LEARNER_MAX_INPUTS];
+    double noise_share; /* variance of the samples' noise in units of psi0, which the
+                           search reckons with; 0 = noise_share below */
 };
 
 /* Every parameter. learner_config_default() fills all rows but psi0 and
@@ -223,7 +227,8 @@ struct body;
 
 /* From now on experts stand on this body (LEARNER_BODY alone): each is learned anew from the
  * samples that it has kept, the first body's from those that came before it. Takes milliseconds, so
- * it is not for a control loop. The body is copied. Returns 0, or -1 with one line in err and the
+ * it is not for a control loop. The body is copied. One without joints takes the body away: what
+ * was kept teaches polynomials again, and waits for another body. Returns 0, or -1 with one line in err and the
  * learner as it was. */
 int learner_give_body(struct learner *learner, const struct body *body, char *err, size_t err_size);
 

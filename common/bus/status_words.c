@@ -15,6 +15,10 @@ static const char *const results[] = {"accepted", "refused, not in this state",
                                       "refused, a value is out of range", "pending",
                                       "failed, see its log"};
 
+static const char *const bodies[] = {"none yet", "searching", "found", "not a chain",
+                                     "no reach-finder on the bus"};
+
+static_assert(COUNT(bodies) == REACH_STATUS_T_BODY_NO_FINDER + 1, "a name for each body");
 static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_STALL + 1, "a name for each fault");
 static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
 static_assert(COUNT(behaviours) == REACH_STATUS_T_EXPLORE + 1, "a name for each behaviour");
@@ -49,4 +53,9 @@ const char *status_phase_word(int phase)
 const char *status_result_word(int request_result)
 {
     return word(results, COUNT(results), request_result);
+}
+
+const char *status_body_word(int body)
+{
+    return word(bodies, COUNT(bodies), body);
 }

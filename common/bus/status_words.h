@@ -8,5 +8,6 @@ const char *status_fault_word(int fault);
 const char *status_behaviour_word(int behaviour);
 const char *status_phase_word(int phase);
 const char *status_result_word(int request_result);
+const char *status_body_word(int body);
 
 #endif

@@ -21,10 +21,11 @@
 #define REQUESTS 16
 #define OUTGOING 256
 #define REPORTS 4
+#define BODIES 4
 
 struct daemon_bus {
     lcm_t *lcm;
-    struct mailbox *states, *observations, *requests, *outgoing, *reports;
+    struct mailbox *states, *observations, *requests, *outgoing, *reports, *bodies;
     sem_t arrived;       /* posted for every message that the loop may wait for */
     sem_t to_send;       /* posted for every outgoing message */
     _Atomic bool ending; /* the sending thread */
@@ -48,7 +49,8 @@ size_t daemon_bus_memory(void)
            mailbox_memory(sizeof(struct observation), OBSERVATIONS) +
            mailbox_memory(sizeof(struct received_request), REQUESTS) +
            mailbox_memory(sizeof(struct outgoing), OUTGOING) +
-           mailbox_memory(sizeof(reach_status_t), REPORTS);
+           mailbox_memory(sizeof(reach_status_t), REPORTS) +
+           mailbox_memory(sizeof(struct received_body), BODIES);
 }
 
 static void refuse(struct daemon_bus *bus)
@@ -103,6 +105,18 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
     deliver(bus, bus->requests, &received);
 }
 
+static void on_body(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct daemon_bus *bus = user;
+    struct received_body received;
+
+    (void)channel;
+    if (!incoming_body(message->data, message->data_size, &received))
+        refuse(bus);
+    else
+        mailbox_put(bus->bodies, &received); /* one that finds no room comes again */
+}
+
 static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
 {
     bus->states = mailbox_create(arena, sizeof(struct received_state), STATES);
@@ -110,7 +124,9 @@ static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
     bus->requests = mailbox_create(arena, sizeof(struct received_request), REQUESTS);
     bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
     bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
-    return bus->states && bus->observations && bus->requests && bus->outgoing && bus->reports;
+    bus->bodies = mailbox_create(arena, sizeof(struct received_body), BODIES);
+    return bus->bodies && bus->states && bus->observations && bus->requests && bus->outgoing &&
+           bus->reports;
 }
 
 struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
@@ -128,7 +144,8 @@ struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct a
     if (sem_init(&bus->arrived, 0, 0) || sem_init(&bus->to_send, 0, 0) ||
         !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) ||
         !lcm_subscribe(lcm, incoming_sense(space), on_observation, bus) ||
-        !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus)) {
+        !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus) ||
+        !lcm_subscribe(lcm, "REACH_BODY", on_body, bus)) {
         snprintf(error, error_size, "cannot subscribe to the bus");
         return NULL;
     }
@@ -197,6 +214,21 @@ struct mailbox *daemon_bus_requests(struct daemon_bus *bus)
 struct mailbox *daemon_bus_reports(struct daemon_bus *bus)
 {
     return bus->reports;
+}
+
+struct mailbox *daemon_bus_bodies(struct daemon_bus *bus)
+{
+    return bus->bodies;
+}
+
+void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *request)
+{
+    reach_body_request_t_publish(bus->lcm, "REACH_BODY_REQUEST", request);
+}
+
+void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message)
+{
+    reach_body_t_publish(bus->lcm, "REACH_BODY_IN_USE", message);
 }
 
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)

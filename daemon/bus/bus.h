@@ -5,10 +5,13 @@
 
 #include "common/base/arena.h"
 #include "common/base/mailbox.h"
+#include "daemon/bus/incoming.h"
 #include "daemon/config/config.h"
 #include "daemon/control/senses/observation.h"
 
 #include <lcm/lcm.h>
+#include <reach_body_request_t.h>
+#include <reach_body_t.h>
 #include <reach_request_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -50,6 +53,13 @@ void daemon_bus_stop(struct daemon_bus *bus);
 struct mailbox *daemon_bus_states(struct daemon_bus *bus);       /* struct received_state */
 struct mailbox *daemon_bus_observations(struct daemon_bus *bus); /* struct observation */
 struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct received_request */
+
+/* For the thread that keeps the model: answers of reach-finder's, struct received_body. */
+struct mailbox *daemon_bus_bodies(struct daemon_bus *bus);
+/* The same thread asks, */
+void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *request);
+/* and tells of the body in use. */
+void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message);
 
 /* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);

@@ -117,6 +117,16 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
         snprintf(error, error_size, "learner.reference must have an entry for each arm joint");
         return -1;
     }
+    if (config->learner_body_order.n != 0 &&
+        config->learner_body_order.n != config_arm_joints(config)) {
+        snprintf(error, error_size, "learner.body.order must have an entry for each arm joint");
+        return -1;
+    }
+    if (config->learner_body_start[0] && config->space.kind != SPACE_CARTESIAN) {
+        snprintf(error, error_size,
+                 "learner.body.start helps where task.space is cartesian: eyes see no metres");
+        return -1;
+    }
     return 0;
 }
 

@@ -61,6 +61,9 @@ struct config {
     double learner_reach;                 /* sqrt(sigma0), rad */
     struct option_list learner_reference; /* rad */
     double learner_scale;                 /* rad */
+    char learner_body_start[OPTION_MAX_TEXT];
+    char learner_body_tip[OPTION_MAX_TEXT];
+    struct option_list learner_body_order; /* from 1, base to tip; may be empty */
     double learner_lwpr_norm_angle, learner_lwpr_norm_disparity,
         learner_lwpr_norm_position; /* rad, px, m */
     int learner_queue, learner_quota;

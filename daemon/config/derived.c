@@ -100,7 +100,12 @@ struct learner_config config_learner(const struct config *config)
         learner.reference[i] = config->learner_reference.value[i];
         learner.scale[i] = config->learner_scale;
         learner.sigma0[i] = square(config->learner_reach);
+        if (config->learner_body_order.n == learner.n_inputs)
+            learner.body.order[i] = (int)config->learner_body_order.value[i] - 1;
     }
+    learner.body.space =
+        config->space.kind == SPACE_CARTESIAN ? LEARNER_BODY_PLACE : LEARNER_BODY_EYES;
+    learner.body.degrees = false;
     if (learner.lwpr.max_projections > learner.n_inputs)
         learner.lwpr.max_projections = learner.n_inputs;
     return learner;

@@ -166,6 +166,13 @@ static const struct option_row table[] = {
          "middle of the range of each arm joint, where the polynomials are centred"),
     NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100,
            "unit of the joint angles in the polynomials and in LWPR's metric"),
+    LIST("learner.body.order", learner_body_order, NULL, "[]", 1, OPTION_MAX_LIST,
+         "body: arm joints from the base to the tip, by number from 1; empty = as they come"),
+    {"learner.body.start", OPTION_TEXT, offsetof(struct config, learner_body_start), NULL, "", 0, 0,
+     "body: URDF file that the search begins with, where task.space is cartesian; empty = none",
+     NULL},
+    {"learner.body.tip", OPTION_TEXT, offsetof(struct config, learner_body_tip), NULL, "", 0, 0,
+     "body: link of that file at which the arm ends; empty = the end of its longest chain", NULL},
     NUMBER("learner.lwpr.norm_angle", learner_lwpr_norm_angle, "deg", "1", 1e-6, 360,
            "LWPR: unit of head angles in the cost that adapts the metric"),
     NUMBER("learner.lwpr.norm_disparity", learner_lwpr_norm_disparity, "px", "1", 1e-6, 1e4,
@@ -199,7 +206,7 @@ void config_preset(struct config *config)
 {
     memset(config, 0, sizeof *config);
     config->learner = learner_config_default(4, SPACE_DIMENSIONS);
-    config->learner.features = LEARNER_POLYNOMIAL;
+    config->learner.features = LEARNER_BODY;
     config->learner.clustering = LEARNER_CLUSTER_LEADER;
     config->learner.inherit = true;
     config->learner.most_bytes = most_bytes;

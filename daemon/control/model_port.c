@@ -8,6 +8,11 @@ static bool take_note_of_nothing(void *context, const double *z, const double *x
     return true;
 }
 
+static void take_notice_of_nothing(void *context, const struct learner *learner)
+{
+    (void)context, (void)learner;
+}
+
 static bool is_never(const void *context)
 {
     (void)context;
@@ -26,6 +31,11 @@ static enum model_result has_no_news(void *context, struct learner **learner)
     return MODEL_NOTHING;
 }
 
+static void do_nothing(void *context)
+{
+    (void)context;
+}
+
 static struct model_moment empty_moment(const void *context)
 {
     (void)context;
@@ -40,10 +50,13 @@ static struct model_report empty_report(const void *context)
 
 static const struct model_port_ops none = {
     .note = take_note_of_nothing,
+    .learned = take_notice_of_nothing,
     .full = is_never,
     .works = is_never,
     .begin_save = cannot_begin,
     .begin_load = cannot_begin,
+    .begin_forgetting = do_nothing,
+    .tell_body = do_nothing,
     .poll = has_no_news,
     .moment = empty_moment,
     .report = empty_report,

@@ -1,5 +1,7 @@
 #include "daemon/control/tick_private.h"
 
+#include "learner/body/body.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -86,6 +88,20 @@ static int64_t samples_of(const struct learner_statistics *counts)
     return (int64_t)(counts->samples + counts->outliers + counts->full + counts->refused);
 }
 
+static void report_body(const struct tick *tick, const struct model_report *model,
+                        reach_status_t *status)
+{
+    const struct body *body = learner_body(tick->learner);
+
+    status->body = (int8_t)(body ? MODEL_FOUND : model->search);
+    status->body_searches = model->searches;
+    if (!body)
+        return;
+    status->body_samples = body->samples;
+    status->body_error = body->error;
+    status->body_doubt = body->doubt;
+}
+
 static void report_model(const struct tick *tick, reach_status_t *status)
 {
     const struct estimate *estimate = &tick->estimate;
@@ -98,6 +114,7 @@ static void report_model(const struct tick *tick, reach_status_t *status)
     status->samples_stored = model.stored;
     status->storing = model.storing;
     status->store_waits = model.waits;
+    report_body(tick, &model, status);
     status->experts = statistics.experts;
     status->solutions = estimate->prediction.n_solutions;
     status->solution = estimate->solution;
@@ -142,6 +159,8 @@ static void report_trace(const struct tick *tick, int64_t now, const struct tick
     trace->store_result = (int8_t)moment.result;
     trace->store_ready = moment.ready;
     trace->model = (int64_t)moment.model;
+    trace->body = moment.body;
+    trace->body_checksum = (int32_t)moment.body_checksum;
     trace->config = (int32_t)tick->config->checksum;
     trace->state_seq = tick->state_seq_now;
     trace->marker_seq = tick->marker_seq_now;

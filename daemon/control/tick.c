@@ -75,6 +75,7 @@ bool tick_learn(struct tick *tick)
     if (!sample || !model->ops->note(model->context, sample->z, sample->x))
         return false;
     sample_queue_learn_one(&tick->queue, tick->learner);
+    model->ops->learned(model->context, tick->learner);
     tick->learned_now++;
     return true;
 }

@@ -69,7 +69,7 @@ size_t tick_memory(const struct config *config);
 struct tick *tick_create(const struct tick_settings *settings, struct arena *arena, char *error,
                          size_t error_size);
 
-/* Before the first tick: the learner, which knows nothing yet, for whoever has a model for it. */
+/* Between two ticks: the learner, for whoever has a model for it or wants its state. */
 struct learner *tick_learner(struct tick *tick);
 
 /* Senses, supervises, decides. Fills command and sample. */

@@ -8,6 +8,8 @@ static void take_measured_status(const reach_status_t *recorded, reach_status_t 
     replayed->samples_stored = recorded->samples_stored;
     replayed->storing = recorded->storing;
     replayed->store_waits = recorded->store_waits;
+    replayed->body = recorded->body;
+    replayed->body_searches = recorded->body_searches;
     replayed->compute_us = recorded->compute_us;
     replayed->compute_mean_us = recorded->compute_mean_us;
     replayed->compute_p999_us = recorded->compute_p999_us;

@@ -8,7 +8,8 @@
 #include <stddef.h>
 
 /* Gives `replayed` what the recorded message has measured: durations, counts of late ticks, what
- * the disk had come to. No replay can have that, and no command depends on it. */
+ * the disk and the search for a body had come to. No replay can have that, and no command depends
+ * on it. */
 void replay_take_measured(const struct outgoing *recorded, struct outgoing *replayed);
 
 /* Whether both are the same in every bit; if not, the first field that differs and its values in

@@ -71,6 +71,20 @@ int recorded_store_follow(struct recorded_store *store, const struct learner_con
     return 0;
 }
 
+int recorded_store_give(struct recorded_store *store, const struct learner_config *config,
+                        const struct learner *learner, const struct body *body, char *error,
+                        size_t error_size)
+{
+    if (create_learner(store, config, error, error_size))
+        return -1;
+    model_capture(&store->model, learner);
+    if (learner_load(store->learner, store->model.bytes, store->model.size, error, error_size) ||
+        learner_give_body(store->learner, body, error, error_size))
+        return -1;
+    store->take = true;
+    return 0;
+}
+
 void recorded_store_close(struct recorded_store *store)
 {
     arena_destroy(store->arena);
@@ -81,6 +95,11 @@ static bool note(void *context, const double *z, const double *x)
 {
     (void)context, (void)z, (void)x;
     return true;
+}
+
+static void take_no_notice(void *context, const struct learner *learner)
+{
+    (void)context, (void)learner;
 }
 
 /* How many samples a tick learned is in its trace: nothing waits here. */
@@ -99,6 +118,11 @@ static bool begin_request(void *context, int number)
     (void)number;
     store->ready = false;
     return ready;
+}
+
+static void do_nothing(void *context)
+{
+    (void)context;
 }
 
 static enum model_result poll_recorded(void *context, struct learner **learner)
@@ -131,10 +155,13 @@ static struct model_report report_nothing(const void *context)
 
 static const struct model_port_ops ops = {
     .note = note,
+    .learned = take_no_notice,
     .full = is_never,
     .works = is_never,
     .begin_save = begin_request,
     .begin_load = begin_request,
+    .begin_forgetting = do_nothing,
+    .tell_body = do_nothing,
     .poll = poll_recorded,
     .moment = moment,
     .report = report_nothing,

@@ -5,6 +5,7 @@
 
 #include "common/base/arena.h"
 #include "daemon/control/model_port.h"
+#include "learner/body/body.h"
 #include "learner/store/model_file.h"
 
 #include <stdbool.h>
@@ -34,6 +35,12 @@ int recorded_store_open(struct recorded_store *store, const struct learner_confi
  * before, is read and changes places with the control step's. Returns as above. */
 int recorded_store_follow(struct recorded_store *store, const struct learner_config *config,
                           const struct model_moment *moment, char *error, size_t error_size);
+
+/* The control step's learner was given this body in the tick ahead: one that is equal and stands on
+ * it will change places with it. Returns as above. */
+int recorded_store_give(struct recorded_store *store, const struct learner_config *config,
+                        const struct learner *learner, const struct body *body, char *error,
+                        size_t error_size);
 
 /* The run is over: frees what it had; the next may be opened. */
 void recorded_store_close(struct recorded_store *store);

@@ -28,6 +28,8 @@ static int load_recorded(struct replay *replay, struct config *config, char *err
     char text[CONFIG_TEXT_SIZE];
     char reason[REPLAY_REASON / 2];
 
+    if (!message && replay->foreign[1].any)
+        return replay_another_version(replay, REPLAY_CONFIG, error, error_size);
     if (!message)
         return replay_fail(replay, error, error_size,
                            "its configuration, of checksum %08x, was not recorded before it; start "
@@ -86,6 +88,8 @@ int replay_follow_store(struct replay *replay, char *error, size_t error_size)
         .result = (enum model_result)trace->store_result,
         .ready = trace->store_ready != 0,
         .model = (uint64_t)trace->model,
+        .body = trace->body,
+        .body_checksum = (uint32_t)trace->body_checksum,
     };
     char reason[MODEL_REASON_MOST];
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "learner/base/hash.h"
+#include "learner/body/order.h"
 
 struct learner_config body_meanwhile_config(const struct learner_config *config)
 {
@@ -23,6 +24,10 @@ static int check(const struct learner_config *config, char *err, size_t err_size
                  BODY_OUTPUTS, config->n_outputs);
         return -1;
     }
+    if (!order_is_whole(config)) {
+        snprintf(err, err_size, "body.order does not name each input once");
+        return -1;
+    }
     return learner_imle_ops.check(&meanwhile, err, err_size);
 }
 
@@ -30,7 +35,9 @@ static uint64_t hash_meanwhile(const struct learner_config *config, uint64_t has
 {
     double numbers[] = {(double)config->body.space, config->body.degrees};
 
-    return learner_hash(learner_imle_ops.hash(config, hash), numbers, sizeof numbers);
+    hash = learner_hash(learner_imle_ops.hash(config, hash), numbers, sizeof numbers);
+    return learner_hash(hash, config->body.order,
+                        (size_t)config->n_inputs * sizeof *config->body.order);
 }
 
 static size_t memory(const struct learner_config *config)
@@ -62,10 +69,12 @@ static void *create(const struct learner_config *config, struct arena *arena)
 static enum learner_update_result update(void *self, const double *z, const double *x)
 {
     struct body_learner *learner = self;
+    double joints[LEARNER_MAX_INPUTS];
 
+    order_to_chain(&learner->config, z, joints);
     if (learner->found)
-        return contexts_learn(learner->contexts, z, x);
-    kept_add(&learner->waiting, z, x);
+        return contexts_learn(learner->contexts, joints, x);
+    kept_add(&learner->waiting, joints, x);
     return imle_learn(learner->meanwhile, z, x);
 }
 
@@ -101,16 +110,19 @@ static int predict(void *self, const double *z, struct learner_prediction *predi
 {
     struct body_learner *learner = self;
     struct contexts *contexts = learner->contexts;
-    struct learner_solution solution = {0};
+    struct learner_solution solution = {0}; /* rows beyond ours are sent, too */
+    double joints[LEARNER_MAX_INPUTS];
     struct chain_pose pose;
 
     if (!learner->found)
         return imle_predict(learner->meanwhile, z, prediction);
-    chain_at(&learner->body.chain, z, &pose);
+    order_to_chain(&learner->config, z, joints);
+    chain_at(&learner->body.chain, joints, &pose);
     design_rows(&contexts->design, &learner->body, &pose, contexts->rows);
     for (int j = 0; j < contexts->n; j++) {
-        if (!contexts_answer(contexts, j, z, &pose, &solution))
+        if (!contexts_answer(contexts, j, joints, &pose, &solution))
             continue;
+        order_to_inputs(&learner->config, BODY_OUTPUTS, solution.jacobian);
         solution.weight = contexts->context[j].recent;
         insert(prediction, learner->config.n_solutions_max, &solution);
     }
@@ -164,22 +176,53 @@ static int saved_experts(const void *self)
     return learner->meanwhile->state.M;
 }
 
+/* What the contexts have kept waits for another body. */
+static void forget_body(struct body_learner *learner)
+{
+    double inputs[LEARNER_MAX_INPUTS];
+
+    if (!learner->found)
+        return;
+    learner->found = false;
+    kept_clear(&learner->waiting);
+    for (int j = 0; j < learner->contexts->n; j++) {
+        const struct kept *kept = &learner->contexts->context[j].kept;
+        for (int i = 0; i < kept->n; i++) {
+            const double *joints = kept->z + (ptrdiff_t)i * kept->n_inputs;
+            const double *x = kept->x + (ptrdiff_t)i * BODY_OUTPUTS;
+            kept_add(&learner->waiting, joints, x);
+            memcpy(inputs, joints, (size_t)kept->n_inputs * sizeof *joints);
+            order_to_inputs(&learner->config, 1, inputs);
+            imle_learn(learner->meanwhile, inputs, x);
+        }
+    }
+    contexts_forget(learner->contexts);
+}
+
 static int give_body(void *self, const struct body *body, char *err, size_t err_size)
 {
     struct body_learner *learner = self;
     const struct kept *waiting = &learner->waiting;
     bool first = !learner->found;
 
+    if (body->chain.n == 0) {
+        forget_body(learner);
+        return 0;
+    }
     if (body->chain.n != learner->config.n_inputs) {
         snprintf(err, err_size, "the body has %d joints, the learner %d inputs", body->chain.n,
                  learner->config.n_inputs);
+        return -1;
+    }
+    if (body->sees != (learner->config.body.space == LEARNER_BODY_EYES)) {
+        snprintf(err, err_size, "the body's outputs are not what body.space says");
         return -1;
     }
     if (body_check(body, err, err_size) != 0)
         return -1;
     learner->body = *body;
     learner->found = true;
-    learner->meanwhile->state.M = 0; /* it has answered for the last time */
+    imle_forget(learner->meanwhile); /* it has answered for the last time */
     contexts_stand_on(learner->contexts, &learner->body);
     for (int i = 0; first && i < waiting->n; i++)
         contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,

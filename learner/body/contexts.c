@@ -291,6 +291,12 @@ static void relearn(struct contexts *contexts, int j)
     context->support = fmax(support, kept->n);
 }
 
+void contexts_forget(struct contexts *contexts)
+{
+    contexts->n = 0;
+    contexts->body = NULL;
+}
+
 void contexts_stand_on(struct contexts *contexts, const struct body *body)
 {
     contexts->body = body;

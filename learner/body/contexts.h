@@ -70,6 +70,9 @@ size_t contexts_memory(int n_joints);
 struct contexts *contexts_create(int n_joints, int most, const struct kernels *kernels,
                                  struct arena *arena);
 
+/* Without contexts and without a body again; no number is given twice. */
+void contexts_forget(struct contexts *contexts);
+
 /* From now on on this body, which must stay: every context is learned anew from what it has kept.
  */
 void contexts_stand_on(struct contexts *contexts, const struct body *body);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "learner/body/body_learner.h"
+#include "learner/body/order.h"
 #include "learner/body/vec3.h"
 
 static const double damping = 1e-3; /* of the squared output that a joint's range makes */
@@ -116,6 +117,8 @@ int body_predict_inverse(void *self, const double *x, struct learner_inverse *in
             inverse->n_solutions++;
         else if (inverse->solution[--at].weight >= one.weight)
             continue;
+        order_to_inputs(&learner->config, 1, one.z);
+        order_to_inputs(&learner->config, 1, one.variance);
         for (; at > 0 && inverse->solution[at - 1].weight < one.weight; at--)
             inverse->solution[at] = inverse->solution[at - 1];
         inverse->solution[at] = one;

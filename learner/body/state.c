@@ -1,6 +1,6 @@
 /* The state as bytes, and back: the body, the contexts with what they keep, the samples that wait
- * for a body, and the mixture that answers meanwhile. Its size depends on the mixture's experts
- * alone. */
+ * for a body, and the mixture that answers meanwhile, empty once there is a body. Its size depends
+ * on the mixture's experts alone. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -212,6 +212,7 @@ finder_outcome decide(const Data &data, double noise, finder_report *report)
 
     if (report->error < explains * std::max(noise, 1.0) &&
         (relative(data, report->error) < chain_like || report->error < as_noisy)) {
+        report->any_body = true;
         if (report->doubt < believed)
             return FINDER_FOUND;
         std::snprintf(report->why, sizeof report->why,
@@ -326,8 +327,11 @@ enum finder_outcome finder_search(const struct finder_settings *settings,
         return FINDER_NOT_YET;
     }
     Found found = find(*settings, rigid, random, report);
-    if (report->outcome != FINDER_FOUND)
+    if (report->outcome != FINDER_FOUND) {
+        if (report->any_body)
+            fill_body(found.data, found.best, found.noise, *report, body);
         return report->outcome;
+    }
     add_tools(*settings, bent, rigid, random, report, found);
     for (Sample &sample : found.data.samples) /* they have judged: now they teach */
         sample.apart = false;

@@ -1,8 +1,9 @@
-/* Looks for a body while a learner learns, and gives it what is found. When it looks depends on
- * samples alone, never on time, so that the same samples give the same learner. */
+/* Looks for a body while a learner learns, and gives it what is found, in one process. When it
+ * looks: learner/body/schedule.h. */
 #ifndef REACH_LEARNER_FINDER_SEEKER_H
 #define REACH_LEARNER_FINDER_SEEKER_H
 
+#include "learner/body/schedule.h"
 #include "learner/finder/finder.h"
 
 #ifdef __cplusplus
@@ -11,14 +12,15 @@ extern "C" {
 
 struct seeker {
     struct finder_settings settings;
-    int next_kept;         /* samples that differ, with which the next search is due */
-    uint64_t next_learned; /* samples learned, the same */
+    struct body_schedule schedule;
     int searches;
     int found;
     uint64_t found_at;           /* samples learned when the first body was found; 0: none yet */
     double found_seconds;        /* of the searches up to then */
     struct finder_report report; /* of the newest search */
-    double seconds;              /* of all searches, this thread's processor time */
+    bool any_body;               /* `body` is one that a search came to */
+    struct body body;
+    double seconds; /* of all searches, this thread's processor time */
 };
 
 /* For a learner of this configuration, with LEARNER_BODY. */

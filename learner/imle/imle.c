@@ -76,8 +76,7 @@ static void *create(const struct learner_config *config, struct arena *arena)
     m->map = feature_map_create(config, arena);
     if (!m->map || imle_layout(m, arena) == 0)
         return NULL;
-    memcpy(m->state.sigma_bar, config->sigma0, (size_t)m->d * sizeof(double));
-    memcpy(m->state.psi_bar, config->psi0, (size_t)m->D * sizeof(double));
+    imle_forget(m);
     m->log_c_joint = -0.5 * chi2_quantile(m->d + m->D, 1.0 - config->p0);
     m->log_c_input = -0.5 * chi2_quantile(m->d, 1.0 - config->p0);
     m->leader_threshold = chi2_quantile(m->D, config->leader_level);

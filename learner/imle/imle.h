@@ -279,6 +279,8 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
 int imle_predict_inverse(struct imle *m, const double *x, struct learner_inverse *inverse);
 
 /* imle/state.c ----------------------------------------------------------------------------- */
+/* As it was created: without experts. */
+void imle_forget(struct imle *m);
 size_t imle_state_size(const void *self, int n_experts);
 void imle_save(const void *self, unsigned char *buffer);
 int imle_load(void *self, int n_experts, const unsigned char *buffer, char *err, size_t err_size);

@@ -21,6 +21,14 @@ static size_t expert_numbers(const struct imle *m)
     return total;
 }
 
+void imle_forget(struct imle *m)
+{
+    m->state.M = 0;
+    m->state.outliers_in_row = 0;
+    memcpy(m->state.sigma_bar, m->config.sigma0, (size_t)m->d * sizeof(double));
+    memcpy(m->state.psi_bar, m->config.psi0, (size_t)m->D * sizeof(double));
+}
+
 size_t imle_state_size(const void *self, int n_experts)
 {
     const struct imle *m = self;

@@ -40,6 +40,8 @@ struct learner_config learner_config_default(int n_inputs, int n_outputs)
 
     for (int i = 0; i < LEARNER_MAX_INPUTS; i++)
         config.scale[i] = 1.0;
+    for (int i = 0; i < LEARNER_MAX_INPUTS; i++)
+        config.body.order[i] = i;
     return config;
 }
 

@@ -82,6 +82,8 @@
           "body: yaw and pitch are in degrees instead of radians"),                                \
         X("body.starts", OPTION_INT, body.starts, 1, 10000, NULL,                                  \
           "body: most random starts of one search for a body"),                                    \
+        X("body.noise_share", OPTION_NUMBER, body.noise_share, 0, 1e6, NULL,                       \
+          "body: variance of the samples' noise as a share of Psi_0; 0 = noise_share"),            \
         X("lwpr.init_d", OPTION_NUMBER, lwpr.init_d, 1e-6, 1e9, NULL,                              \
           "LWPR: diagonal of the metric of a new receptive field, for inputs in units of scale"),  \
         X("lwpr.diagonal_only", OPTION_BOOL, lwpr.diagonal_only, 0, 0, NULL,                       \

@@ -95,6 +95,18 @@ static void learn_sample(void *user, const struct journal_sample *sample)
     learner_update(user, sample->z, sample->x);
 }
 
+static const char *give_body(void *user, const struct journal_body *recorded)
+{
+    struct body body;
+    char ignored[160];
+
+    body_from_numbers(recorded->numbers, &body);
+    return learner_give_body(user, &body, ignored, sizeof ignored)
+               ? "it has a body that no learner "
+                 "of this configuration takes"
+               : NULL;
+}
+
 /* A generation whose making was cut short: its snapshot has no name, its journal no sample yet. */
 static bool never_began(const struct generations *generations, int64_t number)
 {
@@ -110,13 +122,14 @@ static bool never_began(const struct generations *generations, int64_t number)
 static int learn_journal(struct work *work, int64_t number)
 {
     struct journal_reading reading = {.model = work->model->hash, .number = work->model->samples};
+    const struct journal_visitor visitor = {learn_sample, give_body, work->learner};
     char path[MODEL_PATH_MOST];
 
     if (never_began(work->generations, number))
         return 0;
     path_of(work->generations, number, journal_suffix, path);
-    if (journal_read(work->generations->files, path, &reading, learn_sample, work->learner,
-                     work->reason, sizeof work->reason))
+    if (journal_read(work->generations->files, path, &reading, &visitor, work->reason,
+                     sizeof work->reason))
         return -1;
     if (reading.torn >= 0)
         log_warning("%s: cut off at byte %lld, where writing was interrupted; no sample that "

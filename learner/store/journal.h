@@ -1,5 +1,5 @@
 /* The journal of what was learned since a snapshot: a header that names the snapshot, then records
- * of one size, each with a checksum.
+ * of one size, each with a checksum. A sample is one record, a body that was given many.
  *
  * A sample counts as stored when the journal has been synced behind it AND a mark that says so has
  * been written and synced as well: the mark tells damage from a torn end. A bad record that a mark
@@ -8,6 +8,7 @@
 #ifndef REACH_LEARNER_STORE_JOURNAL_H
 #define REACH_LEARNER_STORE_JOURNAL_H
 
+#include "learner/body/body.h"
 #include "learner/learner.h"
 #include "learner/store/files.h"
 
@@ -21,6 +22,13 @@ struct journal_sample {
     double x[LEARNER_MAX_OUTPUTS];
 };
 
+/* A body that the model was given after sample `number` (learner_give_body); zeros: its body was
+ * taken away. */
+struct journal_body {
+    uint64_t number;
+    double numbers[BODY_NUMBERS]; /* body_to_numbers */
+};
+
 /* A journal that is being written. */
 struct journal {
     const struct files *files;
@@ -29,6 +37,8 @@ struct journal {
     uint64_t first;    /* number that the snapshot stands at */
     uint64_t appended; /* number of the newest sample written */
     uint64_t stored;   /* number of the newest sample that is safe */
+    uint64_t bodies;   /* written since the snapshot */
+    uint64_t bodies_stored;
 };
 
 /* A new file for what follows the snapshot of `first` samples and hash `model`; synced. Refuses to
@@ -39,6 +49,9 @@ int journal_create(struct journal *journal, const struct files *files, const cha
 /* Appends the sample after the newest. Returns 0, or -1 with errno; the journal is then of no
  * further use but for what is stored. */
 int journal_append(struct journal *journal, const struct journal_sample *sample);
+
+/* Appends a body, given after the newest sample. Returns as above. */
+int journal_append_body(struct journal *journal, const struct journal_body *body);
 
 /* Makes all that was appended safe, and only then raises `stored`. Returns as append does. After a
  * sync has failed the system may have thrown the data away, so that trying again proves nothing. */
@@ -55,11 +68,17 @@ struct journal_reading {
     long long torn;  /* out: offset where a torn end was cut off; -1 = it ends whole */
 };
 
-typedef void journal_visit_fn(void *user, const struct journal_sample *sample);
+/* What is called for each sample and each body, in order. `body` returns NULL, or what is wrong
+ * with it. */
+struct journal_visitor {
+    void (*sample)(void *user, const struct journal_sample *sample);
+    const char *(*body)(void *user, const struct journal_body *body);
+    void *user;
+};
 
-/* Calls `visit` for each sample in order. Returns 0, or -1 with one line in `reason` that names
+/* Calls `visitor` for all of it. Returns 0, or -1 with one line in `reason` that names
  * path, offset and what is wrong: what was visited is then of no use. */
 int journal_read(const struct files *files, const char *path, struct journal_reading *reading,
-                 journal_visit_fn *visit, void *user, char *reason, size_t reason_size);
+                 const struct journal_visitor *visitor, char *reason, size_t reason_size);
 
 #endif

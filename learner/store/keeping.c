@@ -128,6 +128,15 @@ static void save_if_reached(struct model_store *store)
         save_model(store);
 }
 
+/* From now on both learners take turns at being the loop's. */
+int model_store_lock_shadow(struct model_store *store)
+{
+    if (store->unlocked && arena_lock(store->arena, true))
+        return -1;
+    store->unlocked = false;
+    return 0;
+}
+
 /* The model into the shadow, which the loop will steer by. Returns 0, or -1 with a line; the shadow
  * is then as it was. */
 static int read_model(struct model_store *store, const char *path, char *reason, size_t reason_size)
@@ -136,12 +145,11 @@ static int read_model(struct model_store *store, const char *path, char *reason,
 
     if (model_file_read(store->files, path, &store->model, reason, reason_size) != MODEL_FILE_READ)
         return -1;
-    if (store->unlocked && arena_lock(store->arena, true)) {
+    if (model_store_lock_shadow(store)) {
         snprintf(reason, reason_size, "%s: cannot lock memory for it: %s; raise LimitMEMLOCK", path,
                  strerror(errno));
         return -1;
     }
-    store->unlocked = false; /* from now on both learners take turns at being the loop's */
     if (learner_load(store->shadow, store->model.bytes, store->model.size, why, sizeof why) == 0)
         return 0;
     snprintf(reason, reason_size, "%s: %s", path, why);
@@ -166,6 +174,7 @@ static void load_model(struct model_store *store, int64_t now)
     atomic_store_explicit(&store->storing, false, memory_order_relaxed);
     store->retry_at = 0;
     store->shadow_epoch++;
+    model_store_drop_search(store);
     model_store_set_stage(store, READ);
 }
 
@@ -192,25 +201,59 @@ static void take_noted(struct model_store *store, const struct noted *noted, int
         give_up_journal(store, now, "cannot write the journal");
 }
 
+/* The shadow was given a body, or has none any more, and what is on disk must be the same. */
+void model_store_keep_body(struct model_store *store, int64_t now)
+{
+    struct journal_body body = {.number = store->shadow_number};
+
+    if (store->journal.file < 0)
+        return; /* a snapshot will have it */
+    if (learner_body(store->shadow))
+        body_to_numbers(learner_body(store->shadow), body.numbers);
+    if (journal_append_body(&store->journal, &body))
+        give_up_journal(store, now, "cannot write the journal");
+    else
+        commit_journal(store, now);
+}
+
+static void do_what_is_reached(struct model_store *store, int64_t now)
+{
+    save_if_reached(store);
+    model_store_search_if_reached(store, now);
+}
+
 static void drain(struct model_store *store, int64_t now)
 {
     struct noted noted;
 
     while (mailbox_peek(store->noted, &noted)) {
-        save_if_reached(store); /* looked at after the sample behind it was seen */
+        do_what_is_reached(store, now); /* looked at after the sample behind it was seen */
         mailbox_take(store->noted, &noted);
         take_noted(store, &noted, now);
     }
-    save_if_reached(store);
+    do_what_is_reached(store, now);
+}
+
+/* The loop may take the shadow at any moment. */
+static bool is_loops(const struct model_store *store)
+{
+    enum stage stage = model_store_stage(store);
+
+    return stage == READ || stage == BODY_GIVEN;
 }
 
 void model_store_serve(struct model_store *store, int64_t now)
 {
-    if (!store->arena || model_store_stage(store) == READ)
+    if (!store->arena || is_loops(store))
         return;
     if (model_store_stage(store) == SWAPPED)
         follow_swap(store);
     drain(store, now);
+    model_store_follow_search(store, now);
+    if (model_store_stage(store) == BODY_AWAITED) {
+        model_store_give_body(store, now);
+        return;
+    }
     if (model_store_stage(store) == LOAD_ASKED)
         load_model(store, now);
     else if (store->opened)

@@ -55,7 +55,10 @@ struct model_store *model_store_create(const struct model_store_settings *settin
     store->journal.file = -1;
     store->generations = (struct generations){
         .files = store->files, .directory = settings->directory, .keep = settings->keep};
-    if (has_directory(store) && create_shadow(store, error, error_size)) {
+    store->notes = has_directory(store) || model_store_seeks(settings);
+    store->search.schedule = body_schedule_begin();
+    model_store_begin_with(store);
+    if (store->notes && create_shadow(store, error, error_size)) {
         arena_destroy(store->arena);
         return NULL;
     }
@@ -127,6 +130,7 @@ int model_store_open(struct model_store *store, struct learner *learner, char *e
         learner_load(learner, store->model.bytes, store->model.size, error, error_size))
         return -1;
     store->opened = true;
+    model_store_search_anew(store, learner);
     describe(store, &recovery, text, sizeof text);
     log_info("%s", text);
     return 0;
@@ -168,16 +172,19 @@ void model_store_unlock_memory(struct model_store *store)
 
 bool model_store_full(const struct model_store *store)
 {
-    return has_directory(store) && mailbox_full(store->noted);
+    return store->notes && mailbox_full(store->noted);
 }
 
 bool model_store_note(struct model_store *store, const double *z, const double *x)
 {
     const struct learner_config *learner = &store->settings.learner;
+    enum stage stage = model_store_stage(store);
     struct noted noted = {.epoch = store->epoch, .sample = {.number = store->number + 1}};
 
-    if (!has_directory(store))
+    if (!store->notes)
         return true;
+    if (stage == BODY_AWAITED || stage == BODY_GIVEN)
+        return false;
     memcpy(noted.sample.z, z, sizeof(double) * (size_t)learner->n_inputs);
     memcpy(noted.sample.x, x, sizeof(double) * (size_t)learner->n_outputs);
     if (!mailbox_put(store->noted, &noted))
@@ -189,8 +196,10 @@ bool model_store_note(struct model_store *store, const double *z, const double *
 bool model_store_works(const struct model_store *store)
 {
     enum stage stage = model_store_stage(store);
+    int search = atomic_load_explicit(&store->search.stage, memory_order_acquire);
 
-    return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED;
+    return stage == SAVE_ASKED || stage == LOAD_ASKED || stage == SWAPPED ||
+           stage == BODY_AWAITED || search == SEARCH_ASKED || search == SEARCH_SENT;
 }
 
 static bool begin_request(struct model_store *store, int number)
@@ -219,18 +228,25 @@ bool model_store_begin_load(struct model_store *store, int number)
     return true;
 }
 
-static enum model_store_result take_result(struct model_store *store, struct learner **learner)
+/* The shadow takes the learner's place, and housekeeping makes the other one equal. */
+static void swap_learners(struct model_store *store, struct learner **learner)
 {
     struct learner *old = *learner;
 
+    *learner = store->shadow;
+    store->shadow = old;
+    model_store_set_stage(store, SWAPPED);
+}
+
+static enum model_store_result take_result(struct model_store *store, struct learner **learner)
+{
     switch (model_store_stage(store)) {
     case READ:
-        *learner = store->shadow;
-        store->shadow = old;
         store->epoch++;
         store->number = store->model.samples;
         store->moment.model = store->model.hash;
-        model_store_set_stage(store, SWAPPED);
+        model_store_search_anew(store, store->shadow);
+        swap_learners(store, learner);
         return MODEL_STORE_DONE;
     case DONE:
         model_store_set_stage(store, FREE);
@@ -245,8 +261,12 @@ static enum model_store_result take_result(struct model_store *store, struct lea
 
 enum model_store_result model_store_poll(struct model_store *store, struct learner **learner)
 {
+    bool awaited;
+
     store->moment.result = take_result(store, learner);
-    store->ready = has_directory(store) && model_store_stage(store) == FREE;
+    if (model_store_poll_body(store, &awaited))
+        swap_learners(store, learner);
+    store->ready = has_directory(store) && !awaited && model_store_stage(store) == FREE;
     store->moment.ready = store->ready;
     return store->moment.result;
 }
@@ -254,6 +274,15 @@ enum model_store_result model_store_poll(struct model_store *store, struct learn
 struct model_store_moment model_store_moment(const struct model_store *store)
 {
     return store->moment;
+}
+
+static enum model_store_search search_of(const struct model_store *store)
+{
+    const struct search *search = &store->search;
+
+    if (atomic_load_explicit(&search->stage, memory_order_acquire) != SEARCH_NONE)
+        return MODEL_STORE_SEARCHING;
+    return (enum model_store_search)atomic_load_explicit(&search->outcome, memory_order_relaxed);
 }
 
 struct model_store_report model_store_report(const struct model_store *store)
@@ -265,5 +294,7 @@ struct model_store_report model_store_report(const struct model_store *store)
         .stored = of_this <= store->number ? (int64_t)of_this : 0,
         .storing = atomic_load_explicit(&store->storing, memory_order_relaxed),
         .waits = (int64_t)mailbox_refused(store->noted),
+        .search = search_of(store),
+        .searches = store->search.seq,
     };
 }

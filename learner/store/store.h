@@ -5,13 +5,18 @@
  * a second learner, the shadow. The same samples in the same order give the same bytes, so that the
  * shadow is the loop's learner at a sample a little earlier, and everything that is written comes
  * from it. A load is read into the shadow and the two learners change places. What is on disk:
- * docs/models.md. */
+ * docs/models.md.
+ *
+ * So it is with a body (docs/body.md): the loop sees that a search is due, housekeeping asks for it
+ * with what the shadow has kept, and gives the shadow what was found, while the loop learns
+ * nothing; then the two change places. */
 #ifndef REACH_LEARNER_STORE_STORE_H
 #define REACH_LEARNER_STORE_STORE_H
 
 #include "common/base/arena.h"
 #include "learner/learner.h"
 #include "learner/store/files.h"
+#include "learner/store/finder_port.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,7 +29,9 @@ struct model_store_settings {
     int64_t sync_us;       /* longest time that a learned sample waits for the disk */
     int keep;              /* generations on disk */
     struct learner_config learner;
-    const struct files *files; /* NULL: the system's */
+    const struct files *files;        /* NULL: the system's */
+    const struct finder_port *finder; /* kept, not copied; NULL: nobody looks for a body */
+    const struct body *start; /* kept, not copied: searches begin with it; NULL: with none */
 };
 
 struct model_store;
@@ -48,14 +55,18 @@ int model_store_open(struct model_store *store, struct learner *learner, char *e
 void model_store_unlock_memory(struct model_store *store);
 
 /* Loop thread: a sample that is about to be learned. Returns false when housekeeping has fallen
- * behind so far that there is no room: the sample must then not be learned yet, so that what is
- * learned and what is stored never differ. */
+ * behind so far that there is no room, or gives a body to the other learner: the sample must then
+ * not be learned yet, so that what is learned and what is stored never differ. */
 bool model_store_note(struct model_store *store, const double *z, const double *x);
 
-/* Loop thread: whether model_store_note would return false. */
+/* Loop thread: the learner has learned what was noted. Begins a search for a body when one is due.
+ */
+void model_store_learned(struct model_store *store, const struct learner *learner);
+
+/* Loop thread: whether there is no room for a sample. */
 bool model_store_full(const struct model_store *store);
 
-/* Loop thread: whether housekeeping is at work on a save or a load. */
+/* Loop thread: whether housekeeping is at work on a save, a load or a body. */
 bool model_store_works(const struct model_store *store);
 
 /* Loop thread: start saving or loading. Returns false when the store was busy at the newest poll,
@@ -63,18 +74,28 @@ bool model_store_works(const struct model_store *store);
 bool model_store_begin_save(struct model_store *store, int number);
 bool model_store_begin_load(struct model_store *store, int number);
 
-/* Loop thread, every tick: what became of it. A model that was read takes the learner's place here,
- * between two ticks. */
+/* Loop thread: take the body away from the learner, which has one. The next result is of that. */
+void model_store_begin_forgetting(struct model_store *store);
+
+/* Loop thread: have the finder's port told of the body in use. */
+void model_store_tell_body(struct model_store *store);
+
+/* Loop thread, every tick: what became of it. A model that was read, and the learner that was given
+ * a body, takes the learner's place here, between two ticks. */
 enum model_store_result { MODEL_STORE_NOTHING, MODEL_STORE_DONE, MODEL_STORE_FAILED };
 enum model_store_result model_store_poll(struct model_store *store, struct learner **learner);
 
 /* What the newest poll has seen, for the trace: nothing else that the disk does decides anything.
  */
+enum { MODEL_STORE_BODY_TAKEN = -1 };
 struct model_store_moment {
     enum model_store_result result;
     bool ready; /* a save or load could begin then */
     uint64_t
-        model; /* hash of what the learner was given whole, at start or by a load; 0 = nothing */
+        model;    /* hash of what the learner was given whole, at start or by a load; 0 = nothing */
+    int64_t body; /* seq of the search whose body the learner was given then; 0 = none,
+                     MODEL_STORE_BODY_TAKEN = its body was taken away */
+    uint32_t body_checksum; /* of that body */
 };
 struct model_store_moment model_store_moment(const struct model_store *store);
 
@@ -83,6 +104,16 @@ struct model_store_report {
     int64_t stored; /* samples of the model's life that are safe on disk; 0 = none of this model */
     bool storing;   /* what is learned goes to disk */
     int64_t waits;  /* times that learning waited for room */
+    /* What the newest search has come to, and how many there were. */
+    enum model_store_search {
+        MODEL_STORE_NO_SEARCH,
+        MODEL_STORE_SEARCHING,
+        MODEL_STORE_FOUND,
+        MODEL_STORE_NOT_YET,
+        MODEL_STORE_NO_CHAIN,
+        MODEL_STORE_NO_FINDER,
+    } search;
+    int64_t searches;
 };
 struct model_store_report model_store_report(const struct model_store *store);
 

@@ -47,6 +47,7 @@ mkdir -p "$work/model"
 [ -n "$root" ] || start logger lcm-logger '--channel=REACH_.*' "$work/run.lcmlog"
 start simrobot reach-simrobot --config "$etc/simrobot-kobian.yaml" --lockstep
 start vision reach-vision --config "$etc/vision-kobian.yaml"
+start finder reach-finder
 start reachd reachd --config "$etc/kobian.yaml" --lockstep --set "model.directory=$work/model"
 wait_until_idle
 ask --wait babble 3

@@ -59,6 +59,8 @@ class Packages(unittest.TestCase):
     def test_what_is_where(self):
         for name, file in (
             ("reachd", "usr/sbin/reachd"), ("reachd", "usr/sbin/reach-vision"),
+            ("reachd", "usr/sbin/reach-finder"),
+            ("reachd", "usr/lib/systemd/system/reach-finder.service"),
             ("reachd", "usr/lib/systemd/system/reachd.service"),
             ("reachd", "usr/share/man/man8/reachd.8.gz"), ("reach-sim", "usr/bin/reach-simrobot"),
             ("reach-sim", "etc/reach/robots/kobian.urdf"), ("reach-tools", "usr/bin/reachctl"),

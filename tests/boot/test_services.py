@@ -11,7 +11,7 @@ from pathlib import Path
 from machine import Machine
 
 BUILD = Path(os.environ["REACH_BUILD_DIR"])
-ALL = ["reachd.service", "reach-vision.service", "reach-simrobot.service"]
+ALL = ["reachd.service", "reach-finder.service", "reach-vision.service", "reach-simrobot.service"]
 LEARNER = "reach-learner.service"
 STOP_SECONDS = 2.0
 LARGEST_EXPOSURE = 2.0

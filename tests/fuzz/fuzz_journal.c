@@ -1,4 +1,4 @@
-/* A journal of learned samples. Samples come in order, and a refusal has a reason. */
+/* A journal of learned samples and bodies. They come in order, and a refusal has a reason. */
 #include "harness.h"
 #include "learner/store/journal.h"
 #include "learner/store/model_file.h"
@@ -13,14 +13,21 @@ static void visit(void *user, const struct journal_sample *sample)
     *number = sample->number;
 }
 
+static const char *visit_body(void *user, const struct journal_body *body)
+{
+    HARNESS_REQUIRE(body->number == *(const uint64_t *)user);
+    return NULL;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     uint64_t number = 0;
     struct journal_reading reading = {.model = 0, .number = 0};
+    const struct journal_visitor visitor = {visit, visit_body, &number};
     char reason[MODEL_REASON_MOST] = "";
     const char *path = harness_file(data, size);
 
-    if (journal_read(&files_system, path, &reading, visit, &number, reason, sizeof reason) == 0)
+    if (journal_read(&files_system, path, &reading, &visitor, reason, sizeof reason) == 0)
         HARNESS_REQUIRE(reading.number == number);
     else
         HARNESS_REQUIRE(reason[0]);

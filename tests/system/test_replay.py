@@ -20,14 +20,42 @@ from replaying import REACHD, Replay, events
 LEAST_SPEED = 20  # times real time, of processor time: the machine may be busy
 
 
+def bodies_taken(log: Path) -> list[int]:
+    """Numbers of the bodies that the learner was given."""
+    traces = [reach.trace_t.decode(event.data) for event in lcm.EventLog(str(log))
+              if event.channel == "REACH_TRACE"]  # fmt: skip
+    return [trace.body for trace in traces if trace.body]
+
+
 class NewLogs(Replay):
     def test_in_lockstep_and_fast(self):
         recorded_runs.lockstep_without_eyes(self.folder, 1500)
+        log = self.folder / "run.lcmlog"
+        self.assertGreater(len(bodies_taken(log)), 1)
+        self.without_its_bodies(log)
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.assert_same(self.folder / "run.lcmlog")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         self.assertGreater(1500 * 0.02 / took, LEAST_SPEED)  # a sample a tick at most
+
+    def without_its_bodies(self, log: Path) -> None:
+        """One that is not there, or was altered, is missed: a replay never searches."""
+        whole = log.read_bytes()
+        found = [event for event in events(log.read_bytes()) if event[1] == "REACH_BODY"]
+        rest, at = [], 0
+        for begin, _, _, stop in found:
+            rest.append(whole[at:begin])
+            at = stop
+        missed = r"its learner was given REACH_BODY \d+ is not in the log"
+        self.assert_refused(b"".join([*rest, whole[at:]]), missed)
+        taken = bodies_taken(log)[0]
+        altered = bytearray(whole)
+        for _, _, begin, stop in found:
+            body = reach.body_t.decode(whole[begin:stop])
+            if body.seq == taken and body.outcome == body.FOUND:
+                altered[stop - 8 * len(body.numbers) + 8 * 40] ^= 1
+        self.assert_refused(bytes(altered), missed)
 
     def test_in_real_time_with_models(self):
         models = self.folder / "models"

@@ -16,7 +16,8 @@ from reach.processes import Processes
 from reach.progress import Progress
 from reach.record import read_log
 
-OPTIONS = ["--samples", "3", "--tests", "2", "--period", "0.5"]
+# As many as a body takes: what the search for it finds must be the same, too.
+OPTIONS = ["--samples", "16", "--tool-samples", "3", "--tests", "2", "--period", "0.5"]
 
 
 def demo(out: Path, seed: int) -> dict:
@@ -51,6 +52,7 @@ class SameRun(unittest.TestCase):
     def test_same_seed_same_summary(self):
         first = json.dumps(demo(self.folder / "a", 7))
         self.assertEqual(first, json.dumps(demo(self.folder / "b", 7)))
+        self.assertIsNotNone(json.loads(first)["body"])
         # And the log of a whole experiment gives the run again.
         log = self.folder / "a/run.lcmlog"
         replay = [programs.BINARIES / "reachd", "--replay", log, "--verify"]

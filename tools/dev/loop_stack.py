@@ -45,10 +45,12 @@ CALLS_BY_POINTER = {
         "learner_update": {"update"},
         "learner_predict": {"predict"},
         "learner_get_statistics": {"experts"},
+        "learner_body": {"body"},
+        "learner_kept_samples": {"kept_samples"},
     },
     "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"accepts", "start"}},
     "model_port_ops": {
-        "tick_learn": {"note"},
+        "tick_learn": {"note", "learned"},
         "tick_awaits_store": {"works", "full"},
         "tick_take_requests": {"poll", "begin_save", "begin_load"},
         "tick_report": {"report", "moment"},

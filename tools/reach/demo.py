@@ -8,18 +8,22 @@ import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, programs, recording, report, summary
+from . import metrics, pictures, recording, report, summary
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .experiment import Experiment, ExperimentError
 from .messages import ROOT
 from .processes import ProcessDiedError
+from .programs import LEARNERS, OURS
 from .progress import Progress
 from .record import read_log
 from .recorder import ALL_BUT_IMAGES
 from .session import Stop, session
 
 TOOL = 1  # the simulator's first tool, the rubber tube
+# Training samples with the hand and with the tool, and tests.
+SIZES = (30, 10, 20)
+SIZES_WITHOUT_BODY = (150, 150, 50)
 BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
 
 
@@ -29,15 +33,23 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     add("--seed", type=int, default=1,
         help="random seed, which decides the whole run; default %(default)s")  # fmt: skip
     add("--out", type=Path, default=ROOT / "out/demo", help="folder of the results")
-    add("--samples", type=_count, default=150,
-        help="training samples with the hand and with the tool; default 150")  # fmt: skip
-    add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
+    add("--samples", type=_count,
+        help="training samples with the hand; default 30, without a body 150")  # fmt: skip
+    add("--tool-samples", type=_count,
+        help="training samples with the tool; default 10, else as --samples")  # fmt: skip
+    add("--tests", type=_count,
+        help="unseen configurations to test with; default 20, without a body 50")  # fmt: skip
     add("--period", type=float, default=4.0, help="seconds for each target; default %(default)g")
-    add("--experts", choices=("polynomial", *programs.LEARNERS), default="polynomial",
+    add("--experts", choices=(OURS, *LEARNERS), default=OURS,
         help="kind of experts, or lwpr for the rival learner; default %(default)s")  # fmt: skip
     add("--realtime", action="store_true", help="run in real time instead of as fast as possible")
     add("--keep-images", action="store_true", help="log the cameras too (some 100 kB a pair)")
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    hand, tool, tests = SIZES if options.experts == OURS else SIZES_WITHOUT_BODY
+    options.tool_samples = options.tool_samples or options.samples or tool
+    options.samples = options.samples or hand
+    options.tests = options.tests or tests
+    return options
 
 
 def _count(text: str) -> int:
@@ -49,13 +61,13 @@ def _count(text: str) -> int:
 
 def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace) -> None:
     """The protocol. Seeds of babbling differ between learning and testing, and between runs."""
-    samples, tests, base = options.samples, options.tests, options.seed * 10
+    tests, base = options.tests, options.seed * 10
     targets = metrics.star_targets()
-    experiment.babble("learn_hand", samples, base + 1, learn=True)
+    experiment.babble("learn_hand", options.samples, base + 1, learn=True)
     experiment.babble("test_hand", tests, base + 2, learn=False)
     pictures.take(bus, clock, options.out, "hand")
     experiment.take_tool(TOOL)
-    experiment.babble("learn_tool", samples, base + 3, learn=True)
+    experiment.babble("learn_tool", options.tool_samples, base + 3, learn=True)
     experiment.babble("test_tool", tests, base + 4, learn=False)
     pictures.take(bus, clock, options.out, "tool")
     experiment.star("star_tool", targets, options.period)
@@ -66,15 +78,16 @@ def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace
 
 
 def weights(options: argparse.Namespace) -> dict[str, float]:
-    learn, test = options.samples * BABBLE_SECONDS, options.tests * BABBLE_SECONDS
+    hand, tool = options.samples * BABBLE_SECONDS, options.tool_samples * BABBLE_SECONDS
+    test = options.tests * BABBLE_SECONDS
     star = len(metrics.star_targets()) * options.period
-    return {"learn_hand": learn, "test_hand": test, "learn_tool": learn, "test_tool": test,
+    return {"learn_hand": hand, "test_hand": test, "learn_tool": tool, "test_tool": test,
             "star_tool": star, "star_hand": star, "retest_hand": test}  # fmt: skip
 
 
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
-    learner = [programs.LEARNERS[name] for name in programs.LEARNERS if name == options.experts]
+    learner = [LEARNERS[options.experts]] if options.experts != OURS else []
     with session(
         options.out, Stop(), seed=options.seed, configurations=learner,
         realtime=options.realtime, channels=".*" if options.keep_images else ALL_BUT_IMAGES,
@@ -99,6 +112,7 @@ def describe(options: argparse.Namespace, phases: list[dict], seconds: float) ->
     return {
         "seed": options.seed,
         "samples": options.samples,
+        "tool_samples": options.tool_samples,
         "tests": options.tests,
         "experts": options.experts,
         "clock": "real" if options.realtime else "lockstep",

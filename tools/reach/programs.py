@@ -17,7 +17,9 @@ BINARIES = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
 # to its net.core.rmem_max.
 LISTENER_URL = f"{DEFAULT_URL}&recv_buf_size=8388608"
 
-LEARNERS = {"linear": ROOT / "etc/learner-linear.yaml", "lwpr": ROOT / "etc/learner-lwpr.yaml"}
+OURS = "body"  # the learner that ships: a robot's configuration alone
+# Others, each in a file that the daemon reads after a robot's configuration.
+LEARNERS = {name: ROOT / f"etc/learner-{name}.yaml" for name in ("polynomial", "linear", "lwpr")}
 
 
 def start(
@@ -32,8 +34,8 @@ def start(
     channels: str = ALL_BUT_IMAGES,
     simrobot: tuple = (),
 ) -> None:
-    """Starts recorder, reachd, simrobot, whose further options are `simrobot`, and vision where the
-    robot has eyes.
+    """Starts recorder, reach-finder, reachd, simrobot, whose further options are `simrobot`, and
+    vision where the robot has eyes.
 
     reachd reads `configurations` over the robot's, and over them `settings` of single options;
     the log is of the channels that match."""
@@ -47,6 +49,7 @@ def start(
     commands = {
         "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,
                      "--channels", channels, out / "run.lcmlog"],
+        "finder": [BINARIES / "reach-finder", *url],
         "reachd": [BINARIES / "reachd", *daemon, *url, daemon_clock],
         "vision": [BINARIES / "reach-vision", "--config", eyes, *url],
         "simrobot": [BINARIES / "reach-simrobot", "--config", etc / f"simrobot-{robot}.yaml", *url,
@@ -71,6 +74,7 @@ def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian") -> None:
     """Until the log is being written and the programs have answered on the bus."""
     hello = reach.hello_t
     bus.wait_for_role(hello.RECORDER, "the recorder")
+    bus.wait_for_role(hello.FINDER, "reach-finder")
     bus.wait_for_role(hello.DAEMON, "reachd")
     if (ROOT / f"etc/vision-{robot}.yaml").exists():
         bus.wait_for_role(hello.VISION, "vision")

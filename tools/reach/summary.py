@@ -6,6 +6,7 @@ Everything outside the key "wall" is decided by seed and configuration.
 import numpy as np
 
 from . import metrics
+from .messages import reach
 from .record import Record
 
 TRACK = 5  # status_t.phase
@@ -118,6 +119,18 @@ def wall(record: Record, run: dict) -> dict:
     }
 
 
+def body(last: np.ndarray) -> dict | None:
+    """What the experts stand on in the end, None where that is no body."""
+    if int(last["body"]) != reach.status_t.BODY_FOUND:
+        return None
+    return {
+        "samples": int(last["body_samples"]),
+        "error": float(last["body_error"]),
+        "doubt": float(last["body_doubt"]),
+        "searches": int(last["body_searches"]),
+    }
+
+
 def summarise(record: Record, run: dict) -> dict:
     start, end = run["phases"][0]["start"], run["phases"][-1]["end"]
     frames = (record.between(c, start, end - IN_FLIGHT_US) for c in ("MARKER", "SIM_TRUTH"))
@@ -133,6 +146,7 @@ def summarise(record: Record, run: dict) -> dict:
             "star": {n: star(record, phase_named(run, f"star_{n}")) for n in ("hand", "tool")},
             "experts": int(last["experts"]),
             "contexts": int(last["contexts"]),
+            "body": body(last),
             "solutions_mean": float(np.concatenate(tests)["solutions"].mean()),
             "marker_error_px": {"std_u": std_u, "std_v": std_v, "std_d": std_d,
                                 "mean": marker["mean"]},

@@ -21,6 +21,7 @@ class View:
 
     def __init__(self, urdf: Path | None, step: int = 1):
         self._joints = {}
+        self._body = ""
         self._start: int | None = None
         self._step = step
         self._shown: dict[str, int] = {}  # channel -> step of its newest message
@@ -88,6 +89,19 @@ class View:
     def _on_status(self, status) -> None:
         for name in ("error", "experts", "solutions", "samples", "compute_us"):
             rr.log(f"plots/{name}", rr.Scalars(getattr(status, name)))
+        if (words := body_words(status)) != self._body:
+            self._body = words
+            rr.log("body", rr.TextLog(words))
+
+
+def body_words(status) -> str:
+    """What is known of the robot's body."""
+    if status.body == status.BODY_FOUND:
+        return (f"found from {status.body_samples} samples, off by {status.body_error:.2f} times"
+                f" the noise, unsure by {100 * status.body_doubt:.2f} %")  # fmt: skip
+    others = {status.BODY_SEARCHING: "searching", status.BODY_NO_CHAIN: "not a chain",
+              status.BODY_NO_FINDER: "no reach-finder on the bus"}  # fmt: skip
+    return others.get(status.body, "none yet")
 
 
 def blueprint(robot: str, root: str | None) -> "rrb.Blueprint":
@@ -102,6 +116,7 @@ def blueprint(robot: str, root: str | None) -> "rrb.Blueprint":
               "solutions": "solutions of the prediction", "compute_us": "tick [us]"}  # fmt: skip
     plots = [rrb.TimeSeriesView(origin=f"plots/{name}", name=title)
              for name, title in titles.items()]  # fmt: skip
+    plots.append(rrb.TextLogView(origin="body", name="body"))
     upper = rrb.Horizontal(*eyes, body, column_shares=[1, 1, 1.2])
     return rrb.Blueprint(rrb.Vertical(upper, rrb.Grid(*plots), row_shares=[1.2, 1]),
                          collapse_panels=True)  # fmt: skip
@@ -112,14 +127,20 @@ def open_window() -> None:
     rr.spawn(memory_limit="1GB", hide_welcome_screen=True)
 
 
-def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> None:
-    """What the window would have shown of a log, as a file of its own."""
+def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> int:
+    """What the window would have shown of a log, as a file of its own. Returns how many messages
+    could not be shown, since they are none of their channels'."""
+    bad = 0
     with rr.RecordingStream("reachd") as recording:
         recording.save(path)
         view = View(urdf, step)
         for event in events:
-            view.take(event.channel, event.data)
+            try:
+                view.take(event.channel, event.data)
+            except Exception:  # generated decoders raise anything on bytes like these
+                bad += 1
     recording.disconnect()
+    return bad
 
 
 def open_file(path: Path) -> None:

@@ -25,7 +25,7 @@ static uint64_t samples_then;
 static void mount_small_disk(const struct trial *trial)
 {
     if (unshare(CLONE_NEWNS) || mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) ||
-        mount("none", trial->directory, "tmpfs", 0, "size=2m")) {
+        mount("none", trial->directory, "tmpfs", 0, "size=8m")) {
         perror("disk_trouble: cannot mount a file system");
         exit(1);
     }
@@ -154,16 +154,24 @@ static void read_only_directory(struct trial *trial)
     puts("a read-only directory: the model is used, control goes on");
 }
 
-/* Starts a daemon that must refuse. */
-static void refuses(struct trial *trial, const char *option, const char *value, const char *why)
+/* One option more. Returns where it is. */
+static int add_option(struct trial *trial, const char *option, const char *value)
 {
-    struct reachd_process other = trial->daemon;
     int n = 0;
 
     while (trial->options[n])
         n++;
     trial->options[n] = option;
     trial->options[n + 1] = value;
+    return n;
+}
+
+/* Starts a daemon that must refuse. */
+static void refuses(struct trial *trial, const char *option, const char *value, const char *why)
+{
+    struct reachd_process other = trial->daemon;
+    int n = add_option(trial, option, value);
+
     reachd_process_start(&other);
     for (int i = 0; i < 1000 && !reachd_process_ended(&other); i++)
         usleep(10000);
@@ -221,15 +229,11 @@ static void damaged_journal(struct trial *trial)
 {
     const off_t in_first_record = 60;
     char path[200];
-    int file, n = 0;
+    int file;
 
-    while (trial->options[n])
-        n++;
-    trial->options[n] = "--set";
-    trial->options[n + 1] = "model.snapshot=1000"; /* none comes in between */
     trial_start(trial);
     live_until(trial, newest_journal_has_records, "nothing is in a journal");
-    reachd_process_end(&trial->daemon, SIGTERM); /* a mark covers the records then */
+    reachd_process_end(&trial->daemon, SIGKILL); /* which has no time for a snapshot */
     newest_journal(trial, path, sizeof path);
     file = open(path, O_WRONLY);
     if (file < 0 || pwrite(file, "\377", 1, in_first_record) != 1 || close(file))

@@ -87,11 +87,12 @@ bool arm_sample(const struct body *body, const double *tip, const double *z, dou
     return seen;
 }
 
-struct learner_config body_config(int n_inputs, int capacity)
+struct learner_config body_config(int n_inputs, bool sees, int capacity)
 {
     struct learner_config config = learner_config_default(n_inputs, BODY_OUTPUTS);
 
     config.features = LEARNER_BODY;
+    config.body.space = sees ? LEARNER_BODY_EYES : LEARNER_BODY_PLACE;
     config.degree = 2;
     config.capacity = capacity;
     for (int i = 0; i < n_inputs; i++)

@@ -23,7 +23,7 @@ START_TEST(without_a_body_it_is_the_polynomial)
 {
     static struct learner_prediction a, b;
     static struct learner_inverse c, d;
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
 
     bed_seed();
     struct body body = made_up_arm(JOINTS, false);
@@ -67,7 +67,7 @@ static void expect_body_refused(struct learner *learner, const struct body *body
 
 START_TEST(what_cannot_be_is_refused)
 {
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, true, 16);
     const double gross[] = {NAN, INFINITY, -INFINITY, 1e10};
     double z[JOINTS], x[3];
 
@@ -116,7 +116,7 @@ END_TEST
 
 START_TEST(three_outputs_are_wanted)
 {
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
 
     for (config.n_outputs = 1; config.n_outputs <= LEARNER_MAX_OUTPUTS; config.n_outputs++) {
         for (int i = 0; i < config.n_outputs; i++)
@@ -133,7 +133,7 @@ START_TEST(memory_is_as_it_is_said)
 {
     bed_seed();
     for (int n = 1; n <= LEARNER_MAX_INPUTS; n += 3) {
-        struct learner_config config = body_config(n, 3);
+        struct learner_config config = body_config(n, n % 2, 3);
         struct body body = made_up_arm(n, n % 2);
         config.degree = 1;
         struct learner *learner = bed_create(&config);
@@ -171,7 +171,7 @@ START_TEST(all_widths_learn_and_predict_the_same_bytes)
     bed_seed();
     for (int sees = 0; sees < 2; sees++) {
         struct body body = made_up_arm(JOINTS, sees);
-        int n = create_all(body_config(JOINTS, 16), learners);
+        int n = create_all(body_config(JOINTS, sees, 16), learners);
         for (int k = 0; k < 3000; k++) {
             double z[JOINTS], x[3];
             draw(&body, k, z, x);
@@ -205,7 +205,7 @@ START_TEST(inverse_solutions_reach)
 
     bed_seed();
     for (int sees = 0; sees < 2; sees++) {
-        struct learner_config config = body_config(JOINTS, 16);
+        struct learner_config config = body_config(JOINTS, sees, 16);
         struct body body = made_up_arm(JOINTS, sees);
         struct learner *learner = bed_create(&config);
         ck_assert_int_eq(learner_give_body(learner, &body, err, sizeof err), 0);

@@ -59,7 +59,7 @@ START_TEST(a_loaded_learner_goes_on_to_the_byte)
     for (int sees = 0; sees < 2; sees++)
         for (int found = 0; found < 2; found++) {
             struct body body = made_up_arm(JOINTS, sees);
-            struct learner_config config = body_config(JOINTS, 16);
+            struct learner_config config = body_config(JOINTS, sees, 16);
             struct learner *one = bed_create(&config);
             struct learner *other = bed_create(&config);
             config.n_outliers = 0;
@@ -92,7 +92,7 @@ END_TEST
 /* A state has the mixture's experts or none: however many contexts there are. */
 START_TEST(a_body_lets_go_of_the_mixture)
 {
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
     size_t before;
     size_t after;
 
@@ -143,7 +143,7 @@ START_TEST(numbers_that_cannot_be_are_refused)
 {
     enum { HEAD = 4, CHAIN = HEAD, CONTEXT = HEAD + BODY_NUMBERS };
     const double none[] = {NAN, INFINITY, -INFINITY, 1e300};
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
     size_t size;
 
     bed_seed();
@@ -186,7 +186,7 @@ END_TEST
 /* A state of before there was a body goes into a learner that has one, and the other way. */
 START_TEST(what_was_before_is_gone)
 {
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
 
     bed_seed();
     struct body body = made_up_arm(JOINTS, false);

@@ -93,7 +93,7 @@ START_TEST(the_strongest_are_answered)
 
     bed_seed();
     struct body body = made_up_arm(JOINTS, false);
-    struct learner_config config = body_config(JOINTS, 16);
+    struct learner_config config = body_config(JOINTS, false, 16);
     config.n_solutions_max = 1;
     struct learner *learner = bed_create(&config);
     ck_assert_int_eq(learner_give_body(learner, &body, err, sizeof err), 0);

@@ -91,7 +91,7 @@ Answer search(const Samples &samples)
 /* rms distance over the whole range, of a learner that stands on what was found. */
 double error_of(const body &found, const Samples &samples, const body &truth)
 {
-    learner_config config = body_config(truth.chain.n, 16);
+    learner_config config = body_config(truth.chain.n, truth.sees, 16);
     learner *learner = bed_create(&config);
     char err[160];
     double sum = 0;

@@ -7,7 +7,7 @@
 
 struct learner *on_body(const struct body *body, int capacity)
 {
-    struct learner_config config = body_config(body->chain.n, capacity);
+    struct learner_config config = body_config(body->chain.n, body->sees, capacity);
     struct learner *learner = bed_create(&config);
     char err[160];
 

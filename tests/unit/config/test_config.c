@@ -111,8 +111,9 @@ END_TEST
 
 START_TEST(the_learner_s_memory_is_bounded)
 {
-    const char *overrides[] = {"learner.most_bytes=3e5", "learner.capacity=1024"};
-    struct config config = fixture_config(overrides, 2);
+    const char *overrides[] = {"learner.experts=polynomial", "learner.most_bytes=3e5",
+                               "learner.capacity=1024"};
+    struct config config = fixture_config(overrides, 3);
     struct learner_config learner = config_learner(&config);
 
     ck_assert_uint_gt(learner_memory(&learner), 200000);

@@ -28,7 +28,7 @@ static void watch(void)
 
 static void begin(const char *name, double noise)
 {
-    world_begin(fixture_robot_config(name), noise);
+    world_begin(fixture_overlaid_config(name, "learner-polynomial.yaml"), noise);
     for (int axis = 0; axis < 3; axis++) {
         least[axis] = INFINITY;
         most[axis] = -INFINITY;

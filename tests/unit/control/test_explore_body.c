@@ -47,7 +47,8 @@ static struct config wide_config(void)
     struct config config = fixture_robot_config("icub.yaml");
 
     config.learner.features = LEARNER_BODY;
-    config.learner.noise_share = noise * noise / (0.01 * 0.01);
+    config.learner_body_order.n = 0;
+    config.learner.body.noise_share = noise * noise / (0.01 * 0.01);
     for (int i = 0; i < 7; i++) {
         config.arm_min.value[i] = middle[i] - range[i];
         config.arm_max.value[i] = middle[i] + range[i];

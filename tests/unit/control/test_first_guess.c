@@ -149,7 +149,7 @@ static void reach(int samples, int seed, double *errors)
 {
     struct random_state random = random_seed(seed);
 
-    world_begin(fixture_robot_config("icub.yaml"), 0.0005);
+    world_begin(fixture_overlaid_config("icub.yaml", "learner-polynomial.yaml"), 0.0005);
     world_step();
     run_request(
         (reach_request_t){

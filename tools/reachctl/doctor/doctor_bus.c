@@ -16,7 +16,8 @@ enum { PACKET_MOST = 65536 };
 static void ask_who_is_there(lcm_t *lcm, struct census *census)
 {
     static const int8_t roles[] = {REACH_HELLO_T_DAEMON, REACH_HELLO_T_SIMULATOR,
-                                   REACH_HELLO_T_VISION, REACH_HELLO_T_LEARNER};
+                                   REACH_HELLO_T_VISION, REACH_HELLO_T_LEARNER,
+                                   REACH_HELLO_T_FINDER};
     reach_hello_t hello = {.utime = bus_utime()};
 
     if (getrandom(&census->instance, sizeof census->instance, 0) < 0)

@@ -1,0 +1,20 @@
+#include "learner/body/search.h"
+
+#include <math.h>
+
+struct finder_settings finder_settings_of(const struct learner_config *config)
+{
+    struct finder_settings settings = {
+        .n_joints = config->n_inputs,
+        .sees = config->body.space == LEARNER_BODY_EYES,
+        .angle_unit = config->body.degrees ? M_PI / 180 : 1,
+        .gravity = {0, 0, -1},
+        .starts = config->body.starts,
+    };
+
+    double share = config->body.noise_share > 0 ? config->body.noise_share : config->noise_share;
+
+    for (int i = 0; i < BODY_OUTPUTS; i++)
+        settings.noise[i] = sqrt(config->psi0[i] * share);
+    return settings;
+}

@@ -1,0 +1,284 @@
+/* Bodies on their way: a search that is due, the request for it, its answer, and the body into the
+ * shadow. */
+#include "learner/store/store_private.h"
+
+#include "common/program/log.h"
+
+#include <errno.h>
+#include <string.h>
+
+static const int64_t first_patience_us = 3000000; /* until somebody says that the request came */
+static const int64_t next_patience_us = 300000;   /* the same, once nobody did */
+static const int64_t again_us = 500000;           /* a request may have been lost, */
+static const int64_t answer_us = 5000000;         /* or, once it came, its answer */
+static const int64_t search_us = 60000000;        /* for the search itself */
+
+bool model_store_seeks(const struct model_store_settings *settings)
+{
+    return settings->finder && settings->learner.kind == LEARNER_IMLE &&
+           settings->learner.features == LEARNER_BODY;
+}
+
+static enum search_stage stage_of(const struct model_store *store)
+{
+    return (enum search_stage)atomic_load_explicit(&store->search.stage, memory_order_acquire);
+}
+
+static void set_stage(struct model_store *store, enum search_stage stage)
+{
+    atomic_store_explicit(&store->search.stage, (int)stage, memory_order_release);
+}
+
+static void end_search(struct model_store *store, enum model_store_search outcome)
+{
+    atomic_store_explicit(&store->search.outcome, (int)outcome, memory_order_relaxed);
+    set_stage(store, SEARCH_NONE);
+}
+
+void model_store_search_anew(struct model_store *store, const struct learner *learner)
+{
+    store->search.schedule = body_schedule_begin();
+    body_schedule_searched(&store->search.schedule, learner);
+}
+
+void model_store_learned(struct model_store *store, const struct learner *learner)
+{
+    struct search *search = &store->search;
+
+    if (!model_store_seeks(&store->settings) || stage_of(store) != SEARCH_NONE ||
+        !body_schedule_due(&search->schedule, learner))
+        return;
+    body_schedule_searched(&search->schedule, learner);
+    search->seq++;
+    search->epoch = store->epoch;
+    search->at = store->number;
+    set_stage(store, SEARCH_ASKED);
+}
+
+void model_store_begin_forgetting(struct model_store *store)
+{
+    store->search.forget = true;
+}
+
+void model_store_tell_body(struct model_store *store)
+{
+    atomic_store_explicit(&store->search.tell, true, memory_order_release);
+}
+
+/* The loop has nothing else under way, and housekeeping has a body for it, or it wants none. */
+static bool may_await(const struct model_store *store)
+{
+    return model_store_stage(store) == FREE &&
+           (store->search.forget || stage_of(store) == SEARCH_FOUND);
+}
+
+/* What housekeeping gave the shadow, as the trace has it. */
+static void note_given(struct model_store *store)
+{
+    struct model_store_moment *moment = &store->moment;
+    struct search *search = &store->search;
+
+    if (!search->forget) {
+        moment->body = search->seq;
+        moment->body_checksum = search->answer.checksum;
+        set_stage(store, SEARCH_NONE);
+        return;
+    }
+    moment->body = MODEL_STORE_BODY_TAKEN;
+    moment->result = MODEL_STORE_DONE;
+    search->forget = false;
+    search->schedule = body_schedule_begin();
+}
+
+bool model_store_poll_body(struct model_store *store, bool *awaited)
+{
+    struct model_store_moment *moment = &store->moment;
+
+    moment->body = 0;
+    moment->body_checksum = 0;
+    *awaited = false;
+    if (model_store_stage(store) == BODY_GIVEN) {
+        note_given(store);
+        return true;
+    }
+    if (!may_await(store))
+        return false;
+    *awaited = true;
+    store->search.at = store->number;
+    model_store_set_stage(store, BODY_AWAITED);
+    return false;
+}
+
+void model_store_begin_with(struct model_store *store)
+{
+    store->search.any_candidate = store->settings.start != NULL;
+    if (store->settings.start)
+        store->search.candidate = *store->settings.start;
+}
+
+void model_store_drop_search(struct model_store *store)
+{
+    model_store_begin_with(store);
+    if (stage_of(store) != SEARCH_NONE)
+        end_search(store, MODEL_STORE_NO_SEARCH);
+}
+
+void model_store_search_if_reached(struct model_store *store, int64_t now)
+{
+    struct search *search = &store->search;
+    struct body_search wanted = {.settings = finder_settings_of(&store->settings.learner)};
+
+    if (stage_of(store) != SEARCH_ASKED)
+        return;
+    if (search->epoch != store->shadow_epoch) {
+        model_store_drop_search(store);
+        return;
+    }
+    if (store->shadow_number != search->at)
+        return;
+    wanted.seq = wanted.settings.seed = search->seq;
+    wanted.settings.start = learner_body(store->shadow);
+    if (!wanted.settings.start && search->any_candidate)
+        wanted.settings.start = &search->candidate;
+    wanted.n_contexts = body_schedule_samples(store->shadow, wanted.contexts);
+    search->sent_at = search->asked_at = now;
+    search->came = false;
+    store->settings.finder->ask(store->settings.finder->user, &wanted);
+    set_stage(store, SEARCH_SENT);
+}
+
+static void say_found(const struct body_answer *answer)
+{
+    log_info("a body was found from %d samples in %.2f s: off by %.2f times the noise on samples "
+             "kept apart, unsure by %.2f %% of its length",
+             answer->report.samples, answer->seconds, answer->report.error,
+             100 * answer->report.doubt);
+}
+
+static void take_report(struct model_store *store)
+{
+    const struct body_answer *answer = &store->search.answer;
+
+    switch (answer->report.outcome) {
+    case FINDER_FOUND:
+        say_found(answer);
+        set_stage(store, SEARCH_FOUND);
+        break;
+    case FINDER_NOT_YET:
+        store->search.any_candidate = store->search.any_candidate || answer->report.any_body;
+        if (answer->report.any_body)
+            store->search.candidate = answer->body;
+        log_debug("no body yet: %s", answer->report.why);
+        end_search(store, MODEL_STORE_NOT_YET);
+        break;
+    default:
+        log_info("no body: %s", answer->report.why);
+        end_search(store, MODEL_STORE_NO_CHAIN);
+        break;
+    }
+}
+
+static void take_answer(struct model_store *store)
+{
+    struct search *search = &store->search;
+
+    if (stage_of(store) != SEARCH_SENT || search->answer.seq != search->seq)
+        return; /* of a search that is over */
+    search->came = true;
+    search->absent = false;
+    if (search->answer.kind == BODY_ANSWER_REPORT) {
+        take_report(store);
+    } else if (search->answer.kind == BODY_ANSWER_REFUSED) {
+        log_error("reach-finder refuses to search: %s", search->answer.report.why);
+        end_search(store, MODEL_STORE_NOT_YET);
+    }
+}
+
+/* Nobody is there, or a search takes too long. */
+static void lose_patience(struct model_store *store, int64_t now)
+{
+    struct search *search = &store->search;
+    int64_t patience = search->absent ? next_patience_us : first_patience_us;
+
+    if (!search->came && now - search->sent_at > patience) {
+        if (!search->absent)
+            log_warning("no reach-finder is on the bus, so that no body is found; polynomials go "
+                        "on");
+        search->absent = true;
+        end_search(store, MODEL_STORE_NO_FINDER);
+    } else if (now - search->sent_at > search_us) {
+        log_warning("a search for the body has taken more than %lld s; without it",
+                    (long long)(search_us / 1000000));
+        end_search(store, MODEL_STORE_NOT_YET);
+    }
+}
+
+void model_store_follow_search(struct model_store *store, int64_t now)
+{
+    const struct finder_port *finder = store->settings.finder;
+    struct search *search = &store->search;
+
+    if (!model_store_seeks(&store->settings))
+        return;
+    model_store_tell_if_asked(store);
+    if (stage_of(store) == SEARCH_FOUND)
+        return;
+    while (stage_of(store) != SEARCH_FOUND && finder->take(finder->user, &search->answer))
+        take_answer(store);
+    if (stage_of(store) != SEARCH_SENT)
+        return;
+    if (now - search->asked_at > (search->came ? answer_us : again_us)) {
+        search->asked_at = now;
+        finder->ask_again(finder->user);
+    }
+    lose_patience(store, now);
+}
+
+void model_store_tell_if_asked(struct model_store *store)
+{
+    const struct finder_port *finder = store->settings.finder;
+
+    if (atomic_exchange_explicit(&store->search.tell, false, memory_order_acquire) &&
+        learner_body(store->shadow))
+        finder->tell(finder->user, learner_body(store->shadow));
+}
+
+/* Instead of what was found, or is still looked for: a body without joints. */
+static void give_none(struct model_store *store)
+{
+    model_store_begin_with(store);
+    end_search(store, MODEL_STORE_NO_SEARCH);
+    memset(&store->search.answer, 0, sizeof store->search.answer);
+    log_info("the body is forgotten; the search begins anew with the samples that are kept");
+}
+
+static void could_not_give(struct model_store *store)
+{
+    end_search(store, MODEL_STORE_NOT_YET);
+    model_store_set_stage(store, store->search.forget ? FAILED : FREE);
+    store->search.forget = false;
+}
+
+void model_store_give_body(struct model_store *store, int64_t now)
+{
+    const struct search *search = &store->search;
+    char why[200];
+
+    if (store->shadow_number != search->at)
+        return;
+    if (search->forget)
+        give_none(store);
+    if (model_store_lock_shadow(store)) {
+        log_error("cannot lock memory for a body: %s; raise LimitMEMLOCK", strerror(errno));
+    } else if (learner_give_body(store->shadow, &search->answer.body, why, sizeof why)) {
+        log_error("the body that was found is of no use: %s", why);
+    } else {
+        model_store_keep_body(store, now);
+        model_capture(&store->model, store->shadow);
+        if (!search->forget)
+            atomic_store_explicit(&store->search.outcome, MODEL_STORE_FOUND, memory_order_relaxed);
+        model_store_set_stage(store, BODY_GIVEN);
+        return;
+    }
+    could_not_give(store);
+}
