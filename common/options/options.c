@@ -1,5 +1,7 @@
 #include "common/options/options.h"
 
+#include "common/options/regular_file.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -229,6 +231,13 @@ static int apply_to_table(void *user, const char *name, const char *const *items
     return set_option(row, loading->target, items, n_items, is_list, error, error_size);
 }
 
+/* "1,2,3" for a list: on a command line brackets are for the shell. */
+static bool is_bare_list(const struct option_row *row, const char *value)
+{
+    return row && (row->type == OPTION_LIST || row->type == OPTION_SPREAD) && strchr(value, ',') &&
+           !strchr(value, '[');
+}
+
 /* Reads "name: value" as YAML, so that defaults and overrides follow the file's own syntax. */
 static int apply_text(struct loading *loading, const char *origin, const char *name,
                       const char *value, char *error, size_t error_size)
@@ -236,7 +245,8 @@ static int apply_text(struct loading *loading, const char *origin, const char *n
     char text[OPTION_MAX_NAMES + OPTION_MAX_TEXT + 64];
     FILE *stream;
     int result;
-    int length = snprintf(text, sizeof text, "%s: %s\n", name, value);
+    const bool is_bare = is_bare_list(option_find(loading->table, name), value);
+    int length = snprintf(text, sizeof text, is_bare ? "%s: [%s]\n" : "%s: %s\n", name, value);
 
     if (length < 0 || length >= (int)sizeof text) {
         snprintf(error, error_size, "%s: %s: value is too long", origin, name);
@@ -265,13 +275,11 @@ static int apply_defaults(struct loading *loading, char *error, size_t error_siz
 
 static int apply_file(struct loading *loading, const char *path, char *error, size_t error_size)
 {
-    FILE *file = fopen(path, "r");
+    FILE *file = regular_file_open(path, error, error_size);
     int result;
 
-    if (!file) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+    if (!file)
         return -1;
-    }
     result = options_read_yaml(path, file, apply_to_table, loading, error, error_size);
     fclose(file);
     return result;

@@ -66,7 +66,8 @@ extern const char option_preset[];
     }
 
 /* Fills `target` with the table's defaults, then with the YAML files `paths`, a later one over an
- * earlier one, then with `n_overrides` texts "name=value". The struct is validated whole: on
+ * earlier one, then with `n_overrides` texts "name=value", where a list may be
+ * "1,2,3" without brackets. The struct is validated whole: on
  * failure it is unspecified and must not be used. returns 0, or -1 with one line in `error`
  * ("etc/kobian.yaml:12: reach.gain: ..."). */
 int options_load(const struct option_row *table, void *target, const char *const *paths,

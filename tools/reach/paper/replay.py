@@ -49,7 +49,7 @@ ICUB = Robot(
 )
 
 # All others have the same names for both.
-_DAEMON_ONLY = {"kind", "queue", "quota", "body.order"}
+_DAEMON_ONLY = {"kind", "queue", "quota", "body.order", "body.start", "body.tip"}
 # Those of other shape or unit: standard deviations, degrees, and numbers of each output, of which a
 # file may have those of other robots, too.
 _CONVERTED = {"reach", "reference"}
