@@ -46,7 +46,7 @@ class Explore:
     def settings(self, quick: bool, learner: str) -> dict:
         """Numbers of samples after which it reaches, and seconds for each target."""
         sizes = self.quick if quick else self.full
-        return sizes | ({"seconds": 1.0} if quick and learner != OURS else {})
+        return sizes | ({"seconds": 0.5} if quick and learner != OURS else {})
 
     def overlays(self, learner: str) -> list[Path]:
         return replay.overlays(replay.ICUB if self.robot == "icub" else replay.KOBIAN, learner)
@@ -164,5 +164,5 @@ ICUB = Explore(
 KOBIAN = Explore(
     "kobian", "E2", "px", 1.0, 5.0, (0.04, 1.4),
     full={"explored": [10, 20, 50, 200, 2000], "babbled": [10, 20, 50, 200], "seconds": 3.0},
-    quick={"explored": [10, 250], "babbled": [10], "seconds": 2.0},
+    quick={"explored": [10, 250], "babbled": [10], "seconds": 1.7},
 )  # fmt: skip
