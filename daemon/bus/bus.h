@@ -74,9 +74,6 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
 /* Main thread: says on the bus what the loop works with, or will after this call. */
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
 
-/* For any thread but the loop's: sends a command at once, past the sending thread. */
-void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command);
-
 /* An emergency stop reaches the loop even when the mailbox of requests is full. */
 void daemon_bus_raise_emergency(struct daemon_bus *bus);
 /* For the loop thread: whether one was raised since it was last asked. */

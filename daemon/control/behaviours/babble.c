@@ -37,7 +37,7 @@ static void next_goal(struct babble *babble, struct progress *progress, const st
             break;
         draw(babble, config);
     }
-    babble->deadline = senses->now + (int64_t)(config->babble_timeout * 1e6);
+    babble->deadline = senses->time + (int64_t)(config->babble_timeout * 1e6);
     progress->phase = REACH_STATUS_T_MOVE;
 }
 
@@ -85,12 +85,12 @@ static void go_to_goal(struct babble *babble, struct progress *progress,
     if (!senses->config->space.fixates) {
         if (senses->sight->new_frame)
             gather_sample(progress, senses, wants);
-        if (there || senses->now >= babble->deadline)
+        if (there || senses->time >= babble->deadline)
             next_goal(babble, progress, senses, wants->tried);
         return;
     }
-    if (there || senses->now >= babble->deadline) {
-        babble->deadline = senses->now + (int64_t)(senses->config->fixation_timeout * 1e6);
+    if (there || senses->time >= babble->deadline) {
+        babble->deadline = senses->time + (int64_t)(senses->config->fixation_timeout * 1e6);
         progress->phase = REACH_STATUS_T_FIXATE;
     }
 }
@@ -108,7 +108,7 @@ static void fixate_at_goal(struct babble *babble, struct progress *progress,
         tried_note(wants->tried, babble->goal, true);
         gather_sample(progress, senses, wants);
         next_goal(babble, progress, senses, wants->tried);
-    } else if (senses->now >= babble->deadline) {
+    } else if (senses->time >= babble->deadline) {
         tried_note(wants->tried, babble->goal, false);
         progress->skipped++;
         next_goal(babble, progress, senses, wants->tried);

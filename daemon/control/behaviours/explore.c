@@ -151,7 +151,7 @@ static void gather_sample(struct behaviour *behaviour, const struct senses *sens
         behaviour->progress.done++;
     compare_motion(explore, senses, &wants->pair);
     if (!explore->any)
-        next_goal(explore, senses->config, senses->now);
+        next_goal(explore, senses->config, senses->time);
     widen(explore, wants->pair.x);
     memcpy(explore->q_seen, senses->q, sizeof explore->q_seen);
 }
@@ -164,13 +164,13 @@ static void judge(struct behaviour *behaviour, const struct senses *senses, doub
 
     if (distance < progress_most * explore->nearest) {
         explore->nearest = distance;
-        explore->nearest_at = senses->now;
+        explore->nearest_at = senses->time;
     }
     if (distance < reached) {
-        next_goal(explore, senses->config, senses->now);
-    } else if (senses->now - explore->nearest_at > patience) {
+        next_goal(explore, senses->config, senses->time);
+    } else if (senses->time - explore->nearest_at > patience) {
         behaviour->progress.skipped++;
-        next_goal(explore, senses->config, senses->now);
+        next_goal(explore, senses->config, senses->time);
     }
 }
 
@@ -179,10 +179,10 @@ static void stir(struct explore *explore, const struct senses *senses, struct wa
 {
     int n = config_arm_joints(senses->config);
 
-    if (senses->now >= explore->noise_until) {
+    if (senses->time >= explore->noise_until) {
         for (int i = 0; i < n; i++)
             explore->noise[i] = random_uniform(&explore->random, -1, 1);
-        explore->noise_until = senses->now + noise_us;
+        explore->noise_until = senses->time + noise_us;
     }
     for (int i = 0; i < n; i++)
         wants->velocity[i] +=

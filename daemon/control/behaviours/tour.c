@@ -13,7 +13,7 @@ static const int postures = 12;      /* of which one is chosen; a fraction of a 
 
 static void set_deadline(struct tour *tour, const struct senses *senses)
 {
-    tour->deadline = senses->now + (int64_t)(senses->config->babble_timeout * 1e6);
+    tour->deadline = senses->time + (int64_t)(senses->config->babble_timeout * 1e6);
 }
 
 bool tour_shows_body(const struct config *config)
@@ -68,7 +68,7 @@ bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wan
         begin(tour, senses);
     if (tour->joint >= n)
         return false;
-    if (!control_arm_to(senses, wants, tour->goal) && senses->now < tour->deadline)
+    if (!control_arm_to(senses, wants, tour->goal) && senses->time < tour->deadline)
         return true;
     tour->joint += tour->back;
     tour->back = !tour->back;
@@ -110,7 +110,7 @@ static void choose_posture(struct tour *tour, struct random_state *random,
 void tour_visit_postures(struct tour *tour, struct random_state *random,
                          const struct senses *senses, struct wants *wants)
 {
-    if (!control_arm_to(senses, wants, tour->goal) && senses->now < tour->deadline)
+    if (!control_arm_to(senses, wants, tour->goal) && senses->time < tour->deadline)
         return;
     choose_posture(tour, random, senses);
     set_deadline(tour, senses);

@@ -1,24 +1,30 @@
-#include "tools/reachctl/doctor/multicast.h"
+#include "common/bus/multicast.h"
 
 #include <arpa/inet.h>
 #include <net/if.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 int multicast_parse(const char *url, struct multicast *bus)
 {
-    int port;
+    const char *ttl = strstr(url, "ttl=");
+    int port = 7667;
 
     memset(bus, 0, sizeof *bus);
-    if (sscanf(url, "udpm://%15[0-9.]:%d", bus->group, &port) != 2 || port < 1 || port > 65535 ||
-        inet_pton(AF_INET, bus->group, &bus->address.sin_addr) != 1 ||
+    snprintf(bus->group, sizeof bus->group, "239.255.76.67");
+    if (strncmp(url, "udpm://", strlen("udpm://")) != 0)
+        return -1;
+    sscanf(url, "udpm://%15[0-9.]:%d", bus->group, &port);
+    if (port < 1 || port > 65535 || inet_pton(AF_INET, bus->group, &bus->address.sin_addr) != 1 ||
         !IN_MULTICAST(ntohl(bus->address.sin_addr.s_addr)))
         return -1;
     bus->address.sin_family = AF_INET;
     bus->address.sin_port = htons((uint16_t)port);
+    bus->ttl = ttl ? atoi(ttl + strlen("ttl=")) : 0;
     return 0;
 }
 
