@@ -164,5 +164,5 @@ ICUB = Explore(
 KOBIAN = Explore(
     "kobian", "E2", "px", 1.0, 5.0, (0.04, 1.4),
     full={"explored": [10, 20, 50, 200, 2000], "babbled": [10, 20, 50, 200], "seconds": 3.0},
-    quick={"explored": [10, 250], "babbled": [10], "seconds": 1.7},
+    quick={"explored": [10, 250], "babbled": [10], "seconds": 2.0},
 )  # fmt: skip
