@@ -1,6 +1,7 @@
 #include "daemon/finder_of_bus.h"
 
 #include "common/bus/open.h"
+#include "learner/bus/body_message.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -101,10 +102,25 @@ static bool take(void *user, struct body_answer *answer)
     return false;
 }
 
+static void tell(void *user, const struct body *body)
+{
+    struct finder_of_bus *finder = user;
+    reach_body_t *message = &finder->told;
+
+    message->utime = bus_utime();
+    message->outcome = REACH_BODY_T_FOUND;
+    message->samples = body->samples;
+    message->error = body->error;
+    message->doubt = body->doubt;
+    body_message_put(body, message);
+    daemon_bus_tell_body(finder->bus, message);
+}
+
 void finder_of_bus_init(struct finder_of_bus *finder)
 {
-    *finder = (struct finder_of_bus){
-        .port = {.ask = ask, .ask_again = ask_again, .take = take, .user = finder}};
+    memset(finder, 0, sizeof *finder);
+    finder->port = (struct finder_port){
+        .ask = ask, .ask_again = ask_again, .take = take, .tell = tell, .user = finder};
 }
 
 void finder_of_bus_end(struct finder_of_bus *finder)

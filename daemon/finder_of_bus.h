@@ -12,6 +12,7 @@ struct finder_of_bus {
     /* The rest is that thread's: the newest request, to be sent again. */
     reach_body_request_t request;
     struct received_body received;
+    reach_body_t told;
 };
 
 /* Before the store is created; `finder` must stay. */

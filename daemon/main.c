@@ -2,16 +2,15 @@
 #include "common/base/arena.h"
 #include "common/base/thread.h"
 #include "daemon/arguments.h"
+#include "daemon/body_start.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
 #include "daemon/control/tick.h"
 #include "daemon/finder_of_bus.h"
 #include "daemon/housekeeping/housekeeping.h"
 #include "daemon/model_of_store.h"
-#include "daemon/realtime/loop.h"
-#include "daemon/realtime/watchdog.h"
 #include "daemon/replay/player.h"
-#include "learner/store/disk_thread.h"
+#include "daemon/threads.h"
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -21,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const int claim_ms = 300; /* time for another daemon to answer */
 
@@ -33,12 +33,11 @@ struct reachd {
     struct bus_claim *claim;
     struct arena *arena;
     struct finder_of_bus finder;
+    struct body body_start;
     struct model_store *store;
     struct tick *tick;
-    struct daemon_bus *bus;
-    struct watchdog *watchdog;
-    struct loop *loop;
-    struct disk_thread disk;
+    struct threads threads;
+    bool loop_stands; /* for good, and may still wake up: its memory is not given back */
 };
 
 static bool is_real_time(const struct reachd *reachd)
@@ -94,11 +93,14 @@ static int check_model_directory(const struct config *config, char *error, size_
 /* The control step, and who keeps its model, from which it goes on. */
 static int build_tick(struct reachd *reachd, char *error, size_t error_size)
 {
-    const struct model_store_settings settings =
-        model_of_store_settings(&reachd->config, &reachd->finder.port);
     struct tick_settings tick = {.config = &reachd->config};
+    struct model_store_settings settings;
+    const struct body *start;
 
     finder_of_bus_init(&reachd->finder);
+    if (body_start_read(&reachd->config, &reachd->body_start, &start, error, error_size))
+        return -1;
+    settings = model_of_store_settings(&reachd->config, &reachd->finder.port, start);
     reachd->store = model_store_create(&settings, reachd->arena, error, error_size);
     if (!reachd->store)
         return -1;
@@ -107,6 +109,33 @@ static int build_tick(struct reachd *reachd, char *error, size_t error_size)
     if (!reachd->tick)
         return -1;
     return model_store_open(reachd->store, tick_learner(reachd->tick), error, error_size);
+}
+
+static int build_threads(struct reachd *reachd, char *error, size_t error_size)
+{
+    const struct config *config = &reachd->config;
+    struct threads *threads = &reachd->threads;
+    bool lockstep = reachd->arguments.lockstep;
+    char url[BUS_URL_MOST];
+
+    bus_url(reachd->arguments.url, url, sizeof url);
+    threads->store = reachd->store;
+    threads->real_time = is_real_time(reachd);
+    threads->bus =
+        daemon_bus_create(reachd->lcm, config->space.kind, reachd->arena, error, error_size);
+    if (!threads->bus)
+        return -1;
+    reachd->finder.bus = threads->bus;
+    threads->watchdog = watchdog_create(config, threads->bus, lockstep ? NULL : url, reachd->arena,
+                                        error, error_size);
+    if (!threads->watchdog)
+        return -1;
+    threads->loop = loop_create(config, reachd->tick, threads->bus, threads->watchdog, lockstep,
+                                threads->real_time, reachd->arena);
+    if (threads->loop)
+        return 0;
+    snprintf(error, error_size, "out of memory");
+    return -1;
 }
 
 /* All memory of the loop, in one piece. */
@@ -123,18 +152,8 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
     }
     if (build_tick(reachd, error, error_size))
         return -1;
-    reachd->bus =
-        daemon_bus_create(reachd->lcm, reachd->config.space.kind, reachd->arena, error, error_size);
-    if (!reachd->bus)
+    if (build_threads(reachd, error, error_size))
         return -1;
-    reachd->finder.bus = reachd->bus;
-    reachd->watchdog = watchdog_create(&reachd->config, reachd->bus, !lockstep, reachd->arena);
-    reachd->loop = loop_create(&reachd->config, reachd->tick, reachd->bus, reachd->watchdog,
-                               lockstep, real_time, reachd->arena);
-    if (!reachd->watchdog || !reachd->loop) {
-        snprintf(error, error_size, "out of memory");
-        return -1;
-    }
     log_info("%.1f MB for the loop, %s", (double)arena_used(reachd->arena) / 1e6,
              lockstep    ? "lockstep"
              : real_time ? "real time"
@@ -145,6 +164,8 @@ static int build(struct reachd *reachd, char *error, size_t error_size)
 static void tear_down(struct reachd *reachd)
 {
     model_store_close(reachd->store);
+    if (reachd->loop_stands)
+        _exit(1);
     finder_of_bus_end(&reachd->finder);
     if (reachd->lcm)
         lcm_destroy(reachd->lcm);
@@ -163,49 +184,12 @@ static struct reload reload_of(const struct reachd *reachd)
 
 static int check_model(const struct config *config, char *error, size_t error_size)
 {
-    const struct model_store_settings settings = model_of_store_settings(config, NULL);
+    const struct model_store_settings settings = model_of_store_settings(config, NULL, NULL);
 
     if (model_store_check(&settings, error, error_size))
         return -1;
     puts(error);
     return 0;
-}
-
-/* Bus, loop, watchdog: all or none. */
-static int start_threads(struct reachd *reachd, char *error, size_t error_size)
-{
-    bool real_time = is_real_time(reachd);
-
-    if (daemon_bus_start(reachd->bus, real_time, error, error_size))
-        return -1;
-    if (loop_start(reachd->loop, error, error_size)) {
-        daemon_bus_stop(reachd->bus);
-        return -1;
-    }
-    if (watchdog_start(reachd->watchdog, real_time, error, error_size)) {
-        loop_stop(reachd->loop);
-        daemon_bus_stop(reachd->bus);
-        return -1;
-    }
-    return 0;
-}
-
-/* The model's thread ends last, and after the arm has stopped: its disk may be slow. */
-static void stop_threads(struct reachd *reachd)
-{
-    watchdog_stop(reachd->watchdog);
-    loop_stop(reachd->loop);
-    daemon_bus_stop(reachd->bus);
-}
-
-static int keep_model(struct reachd *reachd, char *error, size_t error_size)
-{
-    if (is_real_time(reachd))
-        model_store_unlock_memory(reachd->store);
-    if (disk_thread_start(&reachd->disk, reachd->store, error, error_size) == 0)
-        return 0;
-    stop_threads(reachd);
-    return -1;
 }
 
 static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
@@ -216,17 +200,19 @@ static int run_daemon(struct reachd *reachd, char *error, size_t error_size)
     housekeeping_take_signals();
     watchdog_take_signal();
     if (claim_bus(reachd, error, error_size) || build(reachd, error, error_size) ||
-        start_threads(reachd, error, error_size) || keep_model(reachd, error, error_size))
+        threads_start(&reachd->threads, error, error_size))
         return -1;
     log_info("ready");
-    housekeeping.loop = reachd->loop;
-    housekeeping.bus = reachd->bus;
+    housekeeping.loop = reachd->threads.loop;
+    housekeeping.bus = reachd->threads.bus;
+    housekeeping.watchdog = reachd->threads.watchdog;
     housekeeping.reload = &reachd->reload;
     housekeeping_run(&housekeeping);
-    stop_threads(reachd);
-    disk_thread_stop(&reachd->disk);
-    log_info("ended after %lld ticks", (long long)loop_ticks(reachd->loop));
-    return 0;
+    reachd->loop_stands = !threads_stop(&reachd->threads);
+    log_info("ended after %lld ticks", (long long)loop_ticks(reachd->threads.loop));
+    if (reachd->loop_stands)
+        snprintf(error, error_size, "the loop stood still at the end");
+    return reachd->loop_stands ? -1 : 0;
 }
 
 /* Decisions that were made once, made again. */
@@ -240,8 +226,9 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
         .verify = arguments->verify,
     };
 
-    if (arguments->replay)
-        return player_play_log(arguments->replay, &settings, error, error_size);
+    if (arguments->n_replay > 0)
+        return player_play_log(arguments->replay, arguments->n_replay, &settings, error,
+                               error_size);
     housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
@@ -261,7 +248,7 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
 
 static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
-    if (reachd->arguments.replay || reachd->arguments.replay_clock)
+    if (reachd->arguments.n_replay > 0 || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
     if (check_model_directory(&reachd->config, error, error_size))
         return -1;

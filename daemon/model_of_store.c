@@ -4,11 +4,13 @@
 
 static_assert((int)MODEL_NOTHING == (int)MODEL_STORE_NOTHING &&
                   (int)MODEL_DONE == (int)MODEL_STORE_DONE &&
-                  (int)MODEL_FAILED == (int)MODEL_STORE_FAILED,
+                  (int)MODEL_FAILED == (int)MODEL_STORE_FAILED &&
+                  (int)MODEL_BODY_TAKEN == (int)MODEL_STORE_BODY_TAKEN,
               "results are handed on as they are");
 
 struct model_store_settings model_of_store_settings(const struct config *config,
-                                                    const struct finder_port *finder)
+                                                    const struct finder_port *finder,
+                                                    const struct body *start)
 {
     return (struct model_store_settings){
         .directory = config->model_directory,
@@ -18,6 +20,7 @@ struct model_store_settings model_of_store_settings(const struct config *config,
         .keep = config->model_keep,
         .learner = config_learner(config),
         .finder = finder,
+        .start = start,
     };
 }
 
@@ -49,6 +52,16 @@ static bool store_begin_save(void *context, int number)
 static bool store_begin_load(void *context, int number)
 {
     return model_store_begin_load(context, number);
+}
+
+static void store_begin_forgetting(void *context)
+{
+    model_store_begin_forgetting(context);
+}
+
+static void store_tell_body(void *context)
+{
+    model_store_tell_body(context);
 }
 
 static enum model_result store_poll(void *context, struct learner **learner)
@@ -103,6 +116,8 @@ static const struct model_port_ops ops = {
     .works = store_works,
     .begin_save = store_begin_save,
     .begin_load = store_begin_load,
+    .begin_forgetting = store_begin_forgetting,
+    .tell_body = store_tell_body,
     .poll = store_poll,
     .moment = store_moment,
     .report = store_report,

@@ -7,10 +7,11 @@
 #include "daemon/control/model_port.h"
 #include "learner/store/store.h"
 
-/* The model.* options, for the store, and who finds bodies for it, NULL = nobody. Points into
- * `config`. */
+/* The model.* options, for the store, and who finds bodies for it (NULL: nobody)
+ * and what searches begin with (NULL: nothing). Points into `config`. */
 struct model_store_settings model_of_store_settings(const struct config *config,
-                                                    const struct finder_port *finder);
+                                                    const struct finder_port *finder,
+                                                    const struct body *start);
 
 /* `store` stays the caller's. */
 struct model_port model_of_store(struct model_store *store);

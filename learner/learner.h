@@ -227,8 +227,9 @@ struct body;
 
 /* From now on experts stand on this body (LEARNER_BODY alone): each is learned anew from the
  * samples that it has kept, the first body's from those that came before it. Takes milliseconds, so
- * it is not for a control loop. The body is copied. Returns 0, or -1 with one line in err and the
- * learner as it was. */
+ * it is not for a control loop. The body is copied. One without joints takes the body away: what
+ * was kept teaches polynomials again, and waits for another body. Returns 0, or -1 with one line in
+ * err and the learner as it was. */
 int learner_give_body(struct learner *learner, const struct body *body, char *err, size_t err_size);
 
 /* The body that it stands on; NULL when there is none. */

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 static const char hello_channel[] = "REACH_HELLO";
-#define URL_MOST 512
 
 static const int self_test_ms = 500;
 static const int receive_buffer_wanted = 8 << 20; /* bytes */
@@ -135,7 +134,7 @@ void bus_url(const char *url, char *full, size_t size)
 
 lcm_t *bus_open(const char *given, char *error, size_t error_size)
 {
-    char url[URL_MOST];
+    char url[BUS_URL_MOST];
     lcm_t *lcm;
 
     bus_url(given, url, sizeof url);

@@ -15,6 +15,8 @@ extern "C" {
 /* ttl=0: messages stay on this machine. */
 #define BUS_DEFAULT_URL "udpm://239.255.76.67:7667?ttl=0"
 
+enum { BUS_URL_MOST = 512 };
+
 /* The whole address: `url`, NULL or "" being $LCM_DEFAULT_URL, else BUS_DEFAULT_URL; with the
  * largest receive buffer that the kernel grants, unless it names one. Pictures pass through every
  * socket of the bus, and a small buffer loses what comes behind them. */

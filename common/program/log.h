@@ -1,6 +1,9 @@
 /* Log lines on stderr, as journald likes them: "<level> program: text".
  *
- * Not for the real-time loop: it writes to a file descriptor and may block. */
+ * A line never waits for who reads: when a pipe is full, a terminal stopped or a socket's buffer
+ * used up, the line is lost and counted, and the next one that gets through is preceded by how many
+ * were. A reader that is gone ends nobody (SIGPIPE). A file may still wait for its disk, so that
+ * this is not for the real-time loop, nor for the watchdog before the arm rests. */
 #ifndef REACH_COMMON_PROGRAM_LOG_H
 #define REACH_COMMON_PROGRAM_LOG_H
 
@@ -15,7 +18,8 @@ enum log_level {
     LOG_LEVEL_DEBUG = 7
 };
 
-/* Names the program in front of every line and sets the least important level that is shown.
+/* Names the program in front of every line and sets the least important level that is shown; to be
+ * called before other threads start.
  * The string is kept, not copied. Under systemd (JOURNAL_STREAM set) lines start with the
  * sd-daemon(3) priority "<3>" instead of the program's name. */
 void log_open(const char *program, enum log_level least_important);

@@ -185,7 +185,10 @@ int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t
 
     if (bus_receiver_start(&bus->receiver, bus->lcm, "reachd-receive", priority, error, error_size))
         return -1;
-    return thread_start(&bus->sender, priority, send, bus, error, error_size);
+    if (thread_start(&bus->sender, priority, send, bus, error, error_size) == 0)
+        return 0;
+    bus_receiver_stop(&bus->receiver);
+    return -1;
 }
 
 void daemon_bus_stop(struct daemon_bus *bus)
@@ -226,15 +229,17 @@ void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *req
     reach_body_request_t_publish(bus->lcm, "REACH_BODY_REQUEST", request);
 }
 
+void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message)
+{
+    reach_body_t_publish(bus->lcm, "REACH_BODY_IN_USE", message);
+}
+
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)
 {
-    struct timespec end;
-    int64_t end_us;
+    const int64_t until = bus_monotonic_us() + (int64_t)milliseconds * 1000;
+    const struct timespec end = {until / 1000000, until % 1000000 * 1000};
 
-    clock_gettime(CLOCK_REALTIME, &end);
-    end_us = (int64_t)end.tv_sec * 1000000 + end.tv_nsec / 1000 + (int64_t)milliseconds * 1000;
-    end = (struct timespec){.tv_sec = end_us / 1000000, .tv_nsec = end_us % 1000000 * 1000};
-    while (sem_timedwait(&bus->arrived, &end))
+    while (sem_clockwait(&bus->arrived, CLOCK_MONOTONIC, &end))
         if (errno != EINTR)
             return false;
     return true;
@@ -282,11 +287,6 @@ void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
     bus->config.seq = ++bus->configs;
     atomic_store_explicit(&bus->config_waits, true, memory_order_release);
     sem_post(&bus->to_send);
-}
-
-void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command)
-{
-    reach_robot_command_t_publish(bus->lcm, "ROBOT_COMMAND", command);
 }
 
 void daemon_bus_raise_emergency(struct daemon_bus *bus)

@@ -11,6 +11,7 @@
 
 #include <lcm/lcm.h>
 #include <reach_body_request_t.h>
+#include <reach_body_t.h>
 #include <reach_request_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -55,8 +56,10 @@ struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct recei
 
 /* For the thread that keeps the model: answers of reach-finder's, struct received_body. */
 struct mailbox *daemon_bus_bodies(struct daemon_bus *bus);
-/* The same thread asks. */
+/* The same thread asks, */
 void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *request);
+/* and tells of the body in use. */
+void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message);
 
 /* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);
@@ -70,9 +73,6 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
 
 /* Main thread: says on the bus what the loop works with, or will after this call. */
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
-
-/* For any thread but the loop's: sends a command at once, past the sending thread. */
-void daemon_bus_publish_command(struct daemon_bus *bus, const reach_robot_command_t *command);
 
 /* An emergency stop reaches the loop even when the mailbox of requests is full. */
 void daemon_bus_raise_emergency(struct daemon_bus *bus);

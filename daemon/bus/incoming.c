@@ -1,15 +1,14 @@
 #include "daemon/bus/incoming.h"
 
 #include "common/base/checksum.h"
+#include "learner/bus/body_message.h"
 
 #include <math.h>
-#include <reach_body_t.h>
 #include <reach_end_effector_t.h>
 #include <reach_marker_t.h>
 #include <string.h>
 
-_Static_assert(sizeof((reach_body_t *)0)->numbers == BODY_NUMBERS * sizeof(double) &&
-                   sizeof((reach_body_t *)0)->why == sizeof((struct finder_report *)0)->why &&
+_Static_assert(sizeof((reach_body_t *)0)->why == sizeof((struct finder_report *)0)->why &&
                    REACH_BODY_T_FOUND == FINDER_FOUND && REACH_BODY_T_NOT_YET == FINDER_NOT_YET &&
                    REACH_BODY_T_NO_CHAIN == FINDER_NO_CHAIN,
                "body_t has what a finder says");
@@ -63,26 +62,11 @@ bool incoming_observation(enum space_kind space, const void *data, size_t size,
     return taken;
 }
 
-static bool all_finite(const double *numbers, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (!isfinite(numbers[i]))
-            return false;
-    return true;
-}
-
-/* A body whose every number can be worked with, as it was sent. */
 static bool take_body(const reach_body_t *message, struct body_answer *answer)
 {
-    char ignored[160];
-
-    if (!all_finite(message->numbers, BODY_NUMBERS) ||
-        (uint32_t)message->checksum != checksum_crc32(message->numbers, sizeof message->numbers))
-        return false;
-    body_from_numbers(message->numbers, &answer->body);
     answer->checksum = (uint32_t)message->checksum;
     return isfinite(message->error) && isfinite(message->doubt) &&
-           body_check(&answer->body, ignored, sizeof ignored) == 0;
+           body_message_take(message, &answer->body);
 }
 
 static bool take_answer(const reach_body_t *message, struct received_body *received)

@@ -81,6 +81,10 @@ static int check_motion(const struct config *config, char *error, size_t error_s
         wrong = "safety.state_suspend is below safety.state_hold";
     else if (config->safety_latency > 0.5 * SAFETY_RECENT * config->period)
         wrong = "safety.latency is more than 32 periods";
+    else if (config->safety_loop_stall < STALL_LEAST_PERIODS * config->period - 1e-9)
+        wrong =
+            "safety.loop_stall is below three periods: the watchdog, which looks once a period, "
+            "could not see a standstill";
     else if (config->safety_reaction < config->safety_loop_stall + config->period - 1e-9)
         wrong =
             "safety.reaction is below safety.loop_stall and a period: a joint could pass its limit "
@@ -120,6 +124,11 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
     if (config->learner_body_order.n != 0 &&
         config->learner_body_order.n != config_arm_joints(config)) {
         snprintf(error, error_size, "learner.body.order must have an entry for each arm joint");
+        return -1;
+    }
+    if (config->learner_body_start[0] && config->space.kind != SPACE_CARTESIAN) {
+        snprintf(error, error_size,
+                 "learner.body.start helps where task.space is cartesian: eyes see no metres");
         return -1;
     }
     return 0;

@@ -58,9 +58,11 @@ struct config {
     struct learner_config learner; /* its scalar rows; config_learner() adds the rest: */
     int learner_kind;
     double learner_noise_angle, learner_noise_disparity, learner_noise_position; /* sqrt(Psi0) */
-    double learner_reach;                  /* sqrt(sigma0), rad */
-    struct option_list learner_reference;  /* rad */
-    double learner_scale;                  /* rad */
+    double learner_reach;                 /* sqrt(sigma0), rad */
+    struct option_list learner_reference; /* rad */
+    double learner_scale;                 /* rad */
+    char learner_body_start[OPTION_MAX_TEXT];
+    char learner_body_tip[OPTION_MAX_TEXT];
     struct option_list learner_body_order; /* from 1, base to tip; may be empty */
     double learner_lwpr_norm_angle, learner_lwpr_norm_disparity,
         learner_lwpr_norm_position; /* rad, px, m */

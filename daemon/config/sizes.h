@@ -10,4 +10,8 @@
 /* Periods whose commands the safety gate remembers; safety.latency must be far shorter. */
 #define SAFETY_RECENT 64
 
+/* The least that safety.loop_stall may be, in periods: the watchdog looks once a period, and a look
+ * that is late by half of the standstill cannot know who is to blame (realtime/stall.h). */
+#define STALL_LEAST_PERIODS 3
+
 #endif

@@ -32,6 +32,8 @@ bool inputs_request_ok(const reach_request_t *request)
     case REACH_REQUEST_T_STOP:
     case REACH_REQUEST_T_RESET_FAULT:
     case REACH_REQUEST_T_EMERGENCY:
+    case REACH_REQUEST_T_TELL_BODY:
+    case REACH_REQUEST_T_FORGET_BODY:
         return true;
     case REACH_REQUEST_T_SAVE:
     case REACH_REQUEST_T_LOAD:

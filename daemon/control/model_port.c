@@ -31,6 +31,11 @@ static enum model_result has_no_news(void *context, struct learner **learner)
     return MODEL_NOTHING;
 }
 
+static void do_nothing(void *context)
+{
+    (void)context;
+}
+
 static struct model_moment empty_moment(const void *context)
 {
     (void)context;
@@ -50,6 +55,8 @@ static const struct model_port_ops none = {
     .works = is_never,
     .begin_save = cannot_begin,
     .begin_load = cannot_begin,
+    .begin_forgetting = do_nothing,
+    .tell_body = do_nothing,
     .poll = has_no_news,
     .moment = empty_moment,
     .report = empty_report,

@@ -11,13 +11,16 @@
 /* What became of a save or a load. Values are those of trace_t.store_result. */
 enum model_result { MODEL_NOTHING, MODEL_DONE, MODEL_FAILED };
 
+enum { MODEL_BODY_TAKEN = -1 };
+
 /* What the newest poll has seen, for the trace: nothing else that the keeper does decides anything.
  */
 struct model_moment {
     enum model_result result;
     bool ready;             /* a save or load could begin then */
     uint64_t model;         /* hash of what the learner was given whole; 0 = nothing */
-    int64_t body;           /* seq of the body_t whose body the learner was given then; 0 = none */
+    int64_t body;           /* seq of the body_t whose body the learner was given then; 0 = none,
+                               MODEL_BODY_TAKEN = its body was taken away */
     uint32_t body_checksum; /* of that body */
 };
 
@@ -53,6 +56,10 @@ struct model_port_ops {
     /* Start saving or loading. Return false when that could not begin at the newest poll. */
     bool (*begin_save)(void *context, int number);
     bool (*begin_load)(void *context, int number);
+    /* Start taking the body away from the learner, which has one; the next result is of that. */
+    void (*begin_forgetting)(void *context);
+    /* Send the body in use. */
+    void (*tell_body)(void *context);
     /* Every tick: what became of it. A model that was read takes the place of *learner here, or
      * *learner gets a body, between two ticks. */
     enum model_result (*poll)(void *context, struct learner **learner);

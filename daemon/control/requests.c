@@ -40,6 +40,22 @@ static bool begin_load(struct tick *tick, int number)
     return may_start(tick) && tick->model.ops->begin_load(tick->model.context, number);
 }
 
+static bool tell_body(struct tick *tick)
+{
+    if (!learner_body(tick->learner))
+        return false;
+    tick->model.ops->tell_body(tick->model.context);
+    return true;
+}
+
+static bool begin_forgetting(struct tick *tick)
+{
+    if (!may_start(tick) || !learner_body(tick->learner))
+        return false;
+    tick->model.ops->begin_forgetting(tick->model.context);
+    return true;
+}
+
 /* What is asked of the daemon itself. */
 static int8_t serve(struct tick *tick, const reach_request_t *request)
 {
@@ -61,6 +77,10 @@ static int8_t serve(struct tick *tick, const reach_request_t *request)
     case REACH_REQUEST_T_LOAD:
         tick->loading = begin_load(tick, request->count);
         return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
+    case REACH_REQUEST_T_TELL_BODY:
+        return tell_body(tick) ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_REFUSED_STATE;
+    case REACH_REQUEST_T_FORGET_BODY:
+        return begin_forgetting(tick) ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
         return REACH_STATUS_T_REFUSED_VALUE;
     }
@@ -81,7 +101,7 @@ static void poll_model(struct tick *tick)
     bool had_body = learner_body(tick->learner) != NULL;
     enum model_result result = tick->model.ops->poll(tick->model.context, &tick->learner);
 
-    if (!had_body && learner_body(tick->learner))
+    if (had_body != (learner_body(tick->learner) != NULL))
         context_init(&tick->context); /* its experts are others; a later body keeps them */
     if (result == MODEL_NOTHING)
         return;

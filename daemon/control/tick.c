@@ -85,7 +85,6 @@ static void begin_anew(struct tick *tick)
 {
     history_init(&tick->history, config_joints(tick->config));
     sight_init(&tick->sight, tick->config);
-    gaze_init(&tick->gaze, tick->config);
     tick->estimate.moved_from = false;
 }
 
@@ -241,12 +240,23 @@ static void take_config(struct tick *tick, const struct config *config)
     tick->safety.config = config;
 }
 
+/* Counted on the loop's grid, which no clock that is set moves. */
+static int64_t advance_time(struct tick *tick, const struct tick_inputs *inputs, int64_t now)
+{
+    int64_t periods = 1 + inputs->slipped + inputs->unseen;
+
+    tick->time =
+        tick->time ? tick->time + periods * (int64_t)(tick->config->period * 1e6 + 0.5) : now;
+    return tick->time;
+}
+
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs)
 {
     const struct senses senses = {
         .config = inputs->config ? inputs->config : tick->config,
         .now = now,
+        .time = advance_time(tick, inputs, now),
         .q = tick->q,
         .previous = tick->safety.previous,
         .sight = &tick->sight,

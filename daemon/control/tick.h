@@ -72,7 +72,8 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
 /* Between two ticks: the learner, for whoever has a model for it or wants its state. */
 struct learner *tick_learner(struct tick *tick);
 
-/* Senses, supervises, decides. Fills command and sample. */
+/* Senses, supervises, decides. Fills command and sample. `now` is the time of stamps, us since the
+ * epoch; durations are counted in periods, so that a clock that is set changes none. */
 void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t now,
                  struct tick_outputs *outputs);
 

@@ -41,6 +41,7 @@ struct tick {
     bool loading;         /* the request that is pending replaces the model */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */
+    int64_t time;         /* that durations are measured by, us; 0 = no tick yet */
     int64_t state_seq;    /* newest good state */
     int64_t state_utime;  /* its time, us */
     double state_age;     /* since it came, s */

@@ -101,6 +101,7 @@ void housekeeping_run(struct housekeeping *housekeeping)
             break;
         if (signal == SIGHUP)
             read_configuration_again(housekeeping);
+        watchdog_say(housekeeping->watchdog);
         say_what_is_awaited(housekeeping);
         say_configuration(housekeeping);
         tell_service_manager(housekeeping);

@@ -7,12 +7,14 @@
 #include "daemon/housekeeping/reload.h"
 #include "daemon/housekeeping/service_manager.h"
 #include "daemon/realtime/loop.h"
+#include "daemon/realtime/watchdog.h"
 
 #include <stdint.h>
 
 struct housekeeping {
     struct loop *loop;
     struct daemon_bus *bus;
+    struct watchdog *watchdog;
     struct reload *reload;
     struct service_manager service_manager;
     reach_status_t status; /* the newest */

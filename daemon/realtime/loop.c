@@ -1,6 +1,7 @@
 #include "daemon/realtime/loop.h"
 
 #include "common/base/thread.h"
+#include "common/bus/open.h"
 #include "daemon/realtime/clock.h"
 #include "daemon/realtime/confine.h"
 #include "daemon/realtime/step.h"
@@ -10,6 +11,7 @@
 #include <semaphore.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 struct loop {
     struct step step;
@@ -117,8 +119,11 @@ int loop_start(struct loop *loop, char *error, size_t error_size)
     return loop->start_result;
 }
 
-void loop_stop(struct loop *loop)
+bool loop_stop(struct loop *loop, double seconds)
 {
+    int64_t end = bus_monotonic_us() + (int64_t)(seconds * 1e6);
+    const struct timespec until = {end / 1000000, end % 1000000 * 1000};
+
     atomic_store_explicit(&loop->step.ending, true, memory_order_relaxed);
-    pthread_join(loop->thread, NULL);
+    return pthread_clockjoin_np(loop->thread, NULL, CLOCK_MONOTONIC, &until) == 0;
 }

@@ -30,8 +30,9 @@ int loop_start(struct loop *loop, char *error, size_t error_size);
  * then the loop works with that offer. */
 const struct config *loop_offer_config(struct loop *loop, const struct config *config);
 
-/* Ends the thread after the tick it is in; a last command of zero velocity goes out. */
-void loop_stop(struct loop *loop);
+/* Ends the thread after the tick it is in; a last command of zero velocity goes out. Returns false
+ * when the thread stands still, and has not ended after so many seconds. */
+bool loop_stop(struct loop *loop, double seconds);
 
 int64_t loop_ticks(const struct loop *loop);
 

@@ -4,56 +4,76 @@
 #include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "common/program/log.h"
-#include "daemon/control/limits/safety.h"
+#include "daemon/realtime/brake.h"
 #include "daemon/realtime/confine.h"
 #include "daemon/realtime/stall.h"
 
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
 #define COMMANDS 64
+#define WORDS 64
 
 static const int64_t lockstep_patience_us = 5 * 1000000;
 static const int64_t say_again_us = 5 * 1000000; /* while the loop stands still */
+
+/* What the log is to be told, by another thread: a log may be slow. */
+enum word { WORD_STANDS, WORD_MOVES, WORD_SIGNAL };
+
+struct told {
+    enum word word;
+    double seconds; /* of standing still */
+};
 
 struct watchdog {
     const struct config *config;
     struct daemon_bus *bus;
     bool brakes;
     struct mailbox *commands; /* from the loop: what it sent */
+    struct mailbox *words;    /* to the main thread: struct told */
     _Atomic int64_t beats;
     _Atomic int braked;
+    _Atomic bool rests; /* the loop stands still, and the arm has been braked to rest */
     _Atomic bool ending;
     /* The watchdog's thread alone: */
     struct stall stall;
     bool stalled;
-    bool has_command;
-    reach_robot_command_t command; /* newest that went out */
-    int64_t said;                  /* when the log was last told, us */
+    struct brake brake;
+    int64_t said; /* when the log was last told, us */
     pthread_t thread;
 };
 
 size_t watchdog_memory(void)
 {
     return arena_footprint(sizeof(struct watchdog)) +
-           mailbox_memory(sizeof(reach_robot_command_t), COMMANDS);
+           mailbox_memory(sizeof(reach_robot_command_t), COMMANDS) +
+           mailbox_memory(sizeof(struct told), WORDS);
 }
 
-struct watchdog *watchdog_create(const struct config *config, struct daemon_bus *bus, bool brakes,
-                                 struct arena *arena)
+struct watchdog *watchdog_create(const struct config *config, struct daemon_bus *bus,
+                                 const char *url, struct arena *arena, char *error,
+                                 size_t error_size)
 {
     struct watchdog *watchdog = arena_alloc(arena, sizeof *watchdog);
 
-    if (!watchdog)
+    if (watchdog) {
+        watchdog->commands = mailbox_create(arena, sizeof(reach_robot_command_t), COMMANDS);
+        watchdog->words = mailbox_create(arena, sizeof(struct told), WORDS);
+    }
+    if (!watchdog || !watchdog->commands || !watchdog->words) {
+        snprintf(error, error_size, "out of memory");
         return NULL;
+    }
     watchdog->config = config;
     watchdog->bus = bus;
-    watchdog->brakes = brakes;
-    watchdog->commands = mailbox_create(arena, sizeof(reach_robot_command_t), COMMANDS);
-    return watchdog->commands ? watchdog : NULL;
+    watchdog->brakes = url != NULL;
+    if (url && brake_open(&watchdog->brake, config, url, error, error_size))
+        return NULL;
+    return watchdog;
 }
 
 static sigset_t emergency_signal(void)
@@ -89,7 +109,7 @@ static void end_when_forbidden(const struct watchdog *watchdog)
 {
     int call = confine_violation();
 
-    if (call < 0 || (watchdog->brakes && !safety_at_rest(watchdog->command.velocity)))
+    if (call < 0 || (watchdog->brakes && !brake_at_rest(&watchdog->brake)))
         return;
     log_error(
         "the loop made system call %d, which it must not (daemon/realtime/confine.c); the arm is "
@@ -98,23 +118,24 @@ static void end_when_forbidden(const struct watchdog *watchdog)
     abort();
 }
 
-static void say_stalled(struct watchdog *watchdog, int64_t now)
+static void tell(struct watchdog *watchdog, enum word word, double seconds)
+{
+    mailbox_put(watchdog->words, &(struct told){word, seconds});
+}
+
+static void tell_stalled(struct watchdog *watchdog, int64_t now)
 {
     if (now - watchdog->said < say_again_us)
         return;
     watchdog->said = now;
-    log_error("the loop stands still for %.2f s%s", (double)(now - watchdog->stall.moved) * 1e-6,
-              watchdog->brakes ? ": the watchdog stops the arm" : "");
+    tell(watchdog, WORD_STANDS, (double)(now - watchdog->stall.moved) * 1e-6);
 }
 
+/* Before anything else is done about it. */
 static void brake(struct watchdog *watchdog)
 {
-    if (!watchdog->has_command)
-        return;
-    safety_brake(watchdog->config, watchdog->command.velocity);
-    watchdog->command.utime = bus_utime();
-    daemon_bus_publish_command(watchdog->bus, &watchdog->command);
-    atomic_fetch_add_explicit(&watchdog->braked, 1, memory_order_acq_rel);
+    if (brake_step(&watchdog->brake))
+        atomic_fetch_add_explicit(&watchdog->braked, 1, memory_order_acq_rel);
 }
 
 static void look_at_loop(struct watchdog *watchdog)
@@ -124,33 +145,62 @@ static void look_at_loop(struct watchdog *watchdog)
                                         : lockstep_patience_us;
     int64_t beats = atomic_load_explicit(&watchdog->beats, memory_order_acquire);
     bool stalled = stall_seen(&watchdog->stall, beats, patience, now) || confine_violation() >= 0;
+    reach_robot_command_t command;
 
-    /* While the loop stands still, `command` is what braking has come to. */
-    while (mailbox_take(watchdog->commands, &watchdog->command))
-        watchdog->has_command = true;
-    if (!stalled && watchdog->stalled)
-        log_warning("the loop moves again");
-    watchdog->stalled = stalled;
-    if (!stalled)
-        return;
-    if (confine_violation() < 0)
-        say_stalled(watchdog, now);
-    if (watchdog->brakes)
+    /* While the loop stands still, the newest is what braking has come to. */
+    while (mailbox_take(watchdog->commands, &command))
+        brake_follow(&watchdog->brake, &command);
+    if (stalled && watchdog->brakes)
         brake(watchdog);
-    end_when_forbidden(watchdog);
+    atomic_store_explicit(&watchdog->rests, stalled && brake_at_rest(&watchdog->brake),
+                          memory_order_release);
+    if (!stalled && watchdog->stalled)
+        tell(watchdog, WORD_MOVES, 0);
+    watchdog->stalled = stalled;
+    if (stalled && confine_violation() < 0)
+        tell_stalled(watchdog, now);
+    if (stalled)
+        end_when_forbidden(watchdog);
+}
+
+void watchdog_say(struct watchdog *watchdog)
+{
+    struct told told;
+
+    while (mailbox_take(watchdog->words, &told)) {
+        if (told.word == WORD_STANDS)
+            log_error("the loop stands still for %.2f s%s", told.seconds,
+                      watchdog->brakes ? ": the watchdog stops the arm" : "");
+        else
+            log_warning(told.word == WORD_MOVES ? "the loop moves again"
+                                                : "SIGUSR1: emergency stop");
+    }
+}
+
+bool watchdog_await_rest(const struct watchdog *watchdog, double seconds)
+{
+    int64_t end = bus_monotonic_us() + (int64_t)(seconds * 1e6);
+
+    while (!atomic_load_explicit(&watchdog->rests, memory_order_acquire)) {
+        if (bus_monotonic_us() > end)
+            return false;
+        sleep_until((bus_monotonic_us() + 1000) * 1000);
+    }
+    return true;
 }
 
 static void *watch(void *user)
 {
     struct watchdog *watchdog = user;
-    const struct timespec period = {.tv_nsec = (long)(watchdog->config->period * 1e9)};
+    const int64_t ns = (int64_t)(watchdog->config->period * 1e9);
+    const struct timespec period = {ns / 1000000000, ns % 1000000000};
     sigset_t signals = emergency_signal();
 
     pthread_setname_np(pthread_self(), "reachd-watch");
     while (!atomic_load_explicit(&watchdog->ending, memory_order_relaxed)) {
         if (sigtimedwait(&signals, NULL, &period) == SIGUSR1) {
             daemon_bus_raise_emergency(watchdog->bus);
-            log_warning("SIGUSR1: emergency stop");
+            tell(watchdog, WORD_SIGNAL, 0);
         }
         look_at_loop(watchdog);
     }
@@ -167,4 +217,7 @@ void watchdog_stop(struct watchdog *watchdog)
 {
     atomic_store_explicit(&watchdog->ending, true, memory_order_relaxed);
     pthread_join(watchdog->thread, NULL);
+    watchdog_say(watchdog);
+    if (watchdog->brakes)
+        brake_close(&watchdog->brake);
 }

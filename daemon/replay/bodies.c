@@ -28,15 +28,27 @@ static const struct body_answer *find_body(const struct replay *replay, int64_t 
     return numbered;
 }
 
+static int give(struct replay *replay, const struct body *body, char *error, size_t error_size)
+{
+    const struct learner_config learner = config_learner(replay->used);
+    char reason[200];
+
+    if (recorded_store_give(&replay->store, &learner, tick_learner(replay->tick), body, reason,
+                            sizeof reason))
+        return replay_fail(replay, error, error_size, "%s", reason);
+    return 0;
+}
+
 int replay_follow_body(struct replay *replay, char *error, size_t error_size)
 {
     const reach_trace_t *trace = &replay->trace;
-    const struct learner_config learner = config_learner(replay->used);
+    static const struct body none;
     const struct body_answer *found;
-    char reason[200];
 
     if (trace->body == 0)
         return 0;
+    if (trace->body == MODEL_BODY_TAKEN)
+        return give(replay, &none, error, error_size);
     found = find_body(replay, trace->body, (uint32_t)trace->body_checksum);
     if (!found)
         return replay_miss(replay, REPLAY_BODY, trace->body, 1, "its learner was given", error,
@@ -47,8 +59,5 @@ int replay_follow_body(struct replay *replay, char *error, size_t error_size)
                            "than the recorded one: %08x, not %08x; the log was altered",
                            (long long)trace->body, (unsigned)trace->body_checksum,
                            (unsigned)found->checksum);
-    if (recorded_store_give(&replay->store, &learner, tick_learner(replay->tick), &found->body,
-                            reason, sizeof reason))
-        return replay_fail(replay, error, error_size, "%s", reason);
-    return 0;
+    return give(replay, &found->body, error, error_size);
 }

@@ -120,6 +120,11 @@ static bool begin_request(void *context, int number)
     return ready;
 }
 
+static void do_nothing(void *context)
+{
+    (void)context;
+}
+
 static enum model_result poll_recorded(void *context, struct learner **learner)
 {
     struct recorded_store *store = context;
@@ -155,6 +160,8 @@ static const struct model_port_ops ops = {
     .works = is_never,
     .begin_save = begin_request,
     .begin_load = begin_request,
+    .begin_forgetting = do_nothing,
+    .tell_body = do_nothing,
     .poll = poll_recorded,
     .moment = moment,
     .report = report_nothing,

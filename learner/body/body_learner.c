@@ -182,12 +182,41 @@ static int saved_experts(const void *self)
     return learner->meanwhile->state.M;
 }
 
+/* What the contexts have kept waits for another body. */
+static void forget_body(struct body_learner *learner)
+{
+    double inputs[LEARNER_MAX_INPUTS];
+
+    learner->given_up = 0.0;
+    if (!learner->found)
+        return;
+    learner->found = learner->doubtful = false;
+    learner->contest = contest_begin();
+    kept_clear(&learner->waiting);
+    for (int j = 0; j < learner->contexts->n; j++) {
+        const struct kept *kept = &learner->contexts->context[j].kept;
+        for (int i = 0; i < kept->n; i++) {
+            const double *joints = kept->z + (ptrdiff_t)i * kept->n_inputs;
+            const double *x = kept->x + (ptrdiff_t)i * BODY_OUTPUTS;
+            kept_add(&learner->waiting, joints, x);
+            memcpy(inputs, joints, (size_t)kept->n_inputs * sizeof *joints);
+            order_to_inputs(&learner->config, 1, inputs);
+            imle_learn(learner->meanwhile, inputs, x);
+        }
+    }
+    contexts_forget(learner->contexts);
+}
+
 static int give_body(void *self, const struct body *body, char *err, size_t err_size)
 {
     struct body_learner *learner = self;
     const struct kept *waiting = &learner->waiting;
     bool first = !learner->found;
 
+    if (body->chain.n == 0) {
+        forget_body(learner);
+        return 0;
+    }
     if (body->chain.n != learner->config.n_inputs) {
         snprintf(err, err_size, "the body has %d joints, the learner %d inputs", body->chain.n,
                  learner->config.n_inputs);

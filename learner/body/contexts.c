@@ -320,6 +320,13 @@ static void relearn(struct contexts *contexts, int j)
     context->support = fmax(support, kept->n);
 }
 
+void contexts_forget(struct contexts *contexts)
+{
+    contexts->n = 0;
+    contexts->streak = contexts->streak_left = contexts->looked = 0.0;
+    contexts->news = (struct body_news){.cause = -1};
+}
+
 void contexts_stand_on(struct contexts *contexts, const struct body *body)
 {
     for (int j = 0; j < contexts->n; j++)

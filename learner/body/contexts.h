@@ -104,6 +104,9 @@ size_t contexts_anchor_numbers(const struct design *design);
 struct contexts *contexts_create(struct body *body, int n_joints, int most,
                                  const struct kernels *kernels, struct arena *arena);
 
+/* Without contexts and without a body again; no number is given twice. */
+void contexts_forget(struct contexts *contexts);
+
 /* From now on on a copy of this body, which is corrected where it changes: every context is learned
  * anew from what it has kept. */
 void contexts_stand_on(struct contexts *contexts, const struct body *body);

@@ -50,7 +50,7 @@ static void give_up(struct body_learner *learner)
     learner->given_up = hysteresis * contest->polynomial / contest->body * learner->body.error *
                         learner->body.error;
     learner->found = learner->doubtful = false;
-    learner->contexts->n = 0;
+    contexts_forget(learner->contexts);
     learner->contest = contest_begin();
 }
 

@@ -1,10 +1,10 @@
 /* reach-finder: waits for requests, searches, answers. It remembers nothing that a request does not
  * bring, so that it may be ended and started at any time. */
-#include "common/base/checksum.h"
 #include "common/bus/open.h"
 #include "common/options/command_line.h"
 #include "common/program/log.h"
 #include "common/program/notify.h"
+#include "learner/bus/body_message.h"
 #include "learner/finder/bus.h"
 #include "learner/finder/finder.h"
 
@@ -91,9 +91,7 @@ static void search(struct finder_bus *bus, const struct question *question)
     answer.outcome = (int8_t)finder_search(&question->settings, question->contexts,
                                            question->n_contexts, &body, &report);
     searches = 0;
-    if (report.any_body)
-        body_to_numbers(&body, answer.numbers);
-    answer.checksum = (int32_t)checksum_crc32(answer.numbers, sizeof answer.numbers);
+    body_message_put(report.any_body ? &body : NULL, &answer);
     answer.samples = report.samples;
     answer.starts = report.starts;
     answer.error = report.error;

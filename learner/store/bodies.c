@@ -55,6 +55,41 @@ void model_store_learned(struct model_store *store, const struct learner *learne
     set_stage(store, SEARCH_ASKED);
 }
 
+void model_store_begin_forgetting(struct model_store *store)
+{
+    store->search.forget = true;
+}
+
+void model_store_tell_body(struct model_store *store)
+{
+    atomic_store_explicit(&store->search.tell, true, memory_order_release);
+}
+
+/* The loop has nothing else under way, and housekeeping has a body for it, or it wants none. */
+static bool may_await(const struct model_store *store)
+{
+    return model_store_stage(store) == FREE &&
+           (store->search.forget || stage_of(store) == SEARCH_FOUND);
+}
+
+/* What housekeeping gave the shadow, as the trace has it. */
+static void note_given(struct model_store *store)
+{
+    struct model_store_moment *moment = &store->moment;
+    struct search *search = &store->search;
+
+    if (!search->forget) {
+        moment->body = search->seq;
+        moment->body_checksum = search->answer.checksum;
+        set_stage(store, SEARCH_NONE);
+        return;
+    }
+    moment->body = MODEL_STORE_BODY_TAKEN;
+    moment->result = MODEL_STORE_DONE;
+    search->forget = false;
+    search->schedule = body_schedule_begin();
+}
+
 bool model_store_poll_body(struct model_store *store, bool *awaited)
 {
     struct model_store_moment *moment = &store->moment;
@@ -63,12 +98,10 @@ bool model_store_poll_body(struct model_store *store, bool *awaited)
     moment->body_checksum = 0;
     *awaited = false;
     if (model_store_stage(store) == BODY_GIVEN) {
-        moment->body = store->search.seq;
-        moment->body_checksum = store->search.answer.checksum;
-        set_stage(store, SEARCH_NONE);
+        note_given(store);
         return true;
     }
-    if (model_store_stage(store) != FREE || stage_of(store) != SEARCH_FOUND)
+    if (!may_await(store))
         return false;
     *awaited = true;
     store->search.at = store->number;
@@ -76,9 +109,16 @@ bool model_store_poll_body(struct model_store *store, bool *awaited)
     return false;
 }
 
+void model_store_begin_with(struct model_store *store)
+{
+    store->search.any_candidate = store->settings.start != NULL;
+    if (store->settings.start)
+        store->search.candidate = *store->settings.start;
+}
+
 void model_store_drop_search(struct model_store *store)
 {
-    store->search.any_candidate = false;
+    model_store_begin_with(store);
     if (stage_of(store) != SEARCH_NONE)
         end_search(store, MODEL_STORE_NO_SEARCH);
 }
@@ -178,7 +218,10 @@ void model_store_follow_search(struct model_store *store, int64_t now)
     const struct finder_port *finder = store->settings.finder;
     struct search *search = &store->search;
 
-    if (!model_store_seeks(&store->settings) || stage_of(store) == SEARCH_FOUND)
+    if (!model_store_seeks(&store->settings))
+        return;
+    model_store_tell_if_asked(store);
+    if (stage_of(store) == SEARCH_FOUND)
         return;
     while (stage_of(store) != SEARCH_FOUND && finder->take(finder->user, &search->answer))
         take_answer(store);
@@ -191,6 +234,31 @@ void model_store_follow_search(struct model_store *store, int64_t now)
     lose_patience(store, now);
 }
 
+void model_store_tell_if_asked(struct model_store *store)
+{
+    const struct finder_port *finder = store->settings.finder;
+
+    if (atomic_exchange_explicit(&store->search.tell, false, memory_order_acquire) &&
+        learner_body(store->shadow))
+        finder->tell(finder->user, learner_body(store->shadow));
+}
+
+/* Instead of what was found, or is still looked for: a body without joints. */
+static void give_none(struct model_store *store)
+{
+    model_store_begin_with(store);
+    end_search(store, MODEL_STORE_NO_SEARCH);
+    memset(&store->search.answer, 0, sizeof store->search.answer);
+    log_info("the body is forgotten; the search begins anew with the samples that are kept");
+}
+
+static void could_not_give(struct model_store *store)
+{
+    end_search(store, MODEL_STORE_NOT_YET);
+    model_store_set_stage(store, store->search.forget ? FAILED : FREE);
+    store->search.forget = false;
+}
+
 void model_store_give_body(struct model_store *store, int64_t now)
 {
     const struct search *search = &store->search;
@@ -198,6 +266,8 @@ void model_store_give_body(struct model_store *store, int64_t now)
 
     if (store->shadow_number != search->at)
         return;
+    if (search->forget)
+        give_none(store);
     if (model_store_lock_shadow(store)) {
         log_error("cannot lock memory for a body: %s; raise LimitMEMLOCK", strerror(errno));
     } else if (learner_give_body(store->shadow, &search->answer.body, why, sizeof why)) {
@@ -205,10 +275,10 @@ void model_store_give_body(struct model_store *store, int64_t now)
     } else {
         model_store_keep_body(store, now);
         model_capture(&store->model, store->shadow);
-        atomic_store_explicit(&store->search.outcome, MODEL_STORE_FOUND, memory_order_relaxed);
+        if (!search->forget)
+            atomic_store_explicit(&store->search.outcome, MODEL_STORE_FOUND, memory_order_relaxed);
         model_store_set_stage(store, BODY_GIVEN);
         return;
     }
-    end_search(store, MODEL_STORE_NOT_YET);
-    model_store_set_stage(store, FREE);
+    could_not_give(store);
 }

@@ -33,6 +33,8 @@ struct finder_port {
     void (*ask_again)(void *user); /* the same: it may have been lost */
     /* The oldest answer that came. Returns false when there is none. */
     bool (*take)(void *user, struct body_answer *answer);
+    /* Somebody wants to know the body in use. */
+    void (*tell)(void *user, const struct body *body);
     void *user;
 };
 

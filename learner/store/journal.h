@@ -22,7 +22,8 @@ struct journal_sample {
     double x[LEARNER_MAX_OUTPUTS];
 };
 
-/* A body that the model was given after sample `number` (learner_give_body). */
+/* A body that the model was given after sample `number` (learner_give_body); zeros: its body was
+ * taken away. */
 struct journal_body {
     uint64_t number;
     double numbers[BODY_NUMBERS]; /* body_to_numbers */

@@ -201,14 +201,15 @@ static void take_noted(struct model_store *store, const struct noted *noted, int
         give_up_journal(store, now, "cannot write the journal");
 }
 
-/* The shadow was given a body, and what is on disk must be, too. */
+/* The shadow was given a body, or has none any more, and what is on disk must be the same. */
 void model_store_keep_body(struct model_store *store, int64_t now)
 {
     struct journal_body body = {.number = store->shadow_number};
 
     if (store->journal.file < 0)
         return; /* a snapshot will have it */
-    body_to_numbers(learner_body(store->shadow), body.numbers);
+    if (learner_body(store->shadow))
+        body_to_numbers(learner_body(store->shadow), body.numbers);
     if (journal_append_body(&store->journal, &body))
         give_up_journal(store, now, "cannot write the journal");
     else

@@ -57,6 +57,7 @@ struct model_store *model_store_create(const struct model_store_settings *settin
         .files = store->files, .directory = settings->directory, .keep = settings->keep};
     store->notes = has_directory(store) || model_store_seeks(settings);
     store->search.schedule = body_schedule_begin();
+    model_store_begin_with(store);
     if (store->notes && create_shadow(store, error, error_size)) {
         arena_destroy(store->arena);
         return NULL;

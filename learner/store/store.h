@@ -31,6 +31,7 @@ struct model_store_settings {
     struct learner_config learner;
     const struct files *files;        /* NULL: the system's */
     const struct finder_port *finder; /* kept, not copied; NULL: nobody looks for a body */
+    const struct body *start; /* kept, not copied: searches begin with it; NULL: with none */
 };
 
 struct model_store;
@@ -73,6 +74,12 @@ bool model_store_works(const struct model_store *store);
 bool model_store_begin_save(struct model_store *store, int number);
 bool model_store_begin_load(struct model_store *store, int number);
 
+/* Loop thread: take the body away from the learner, which has one. The next result is of that. */
+void model_store_begin_forgetting(struct model_store *store);
+
+/* Loop thread: have the finder's port told of the body in use. */
+void model_store_tell_body(struct model_store *store);
+
 /* Loop thread, every tick: what became of it. A model that was read, and the learner that was given
  * a body, takes the learner's place here, between two ticks. */
 enum model_store_result { MODEL_STORE_NOTHING, MODEL_STORE_DONE, MODEL_STORE_FAILED };
@@ -80,12 +87,14 @@ enum model_store_result model_store_poll(struct model_store *store, struct learn
 
 /* What the newest poll has seen, for the trace: nothing else that the disk does decides anything.
  */
+enum { MODEL_STORE_BODY_TAKEN = -1 };
 struct model_store_moment {
     enum model_store_result result;
     bool ready; /* a save or load could begin then */
     uint64_t
         model;    /* hash of what the learner was given whole, at start or by a load; 0 = nothing */
-    int64_t body; /* seq of the search whose body the learner was given then; 0 = none */
+    int64_t body; /* seq of the search whose body the learner was given then; 0 = none,
+                     MODEL_STORE_BODY_TAKEN = its body was taken away */
     uint32_t body_checksum; /* of that body */
 };
 struct model_store_moment model_store_moment(const struct model_store *store);

@@ -22,7 +22,8 @@ struct noted {
  * loop takes the model that was read and says SWAPPED; housekeeping makes the other learner equal
  * to it, then FREE. A body that was found: the loop says BODY_AWAITED, and learns nothing from then
  * on; housekeeping gives it to the shadow and says BODY_GIVEN (or FREE, where that failed); the
- * loop takes the shadow and says SWAPPED. The shadow and the bytes are the loop's in READ and
+ * loop takes the shadow and says SWAPPED. A body that is taken away goes the same way (a failure
+ * is FAILED). The shadow and the bytes are the loop's in READ and
  * BODY_GIVEN, else housekeeping's. In FREE it is the loop that begins. */
 enum stage { FREE, SAVE_ASKED, LOAD_ASKED, READ, SWAPPED, DONE, FAILED, BODY_AWAITED, BODY_GIVEN };
 
@@ -38,6 +39,8 @@ struct search {
     int64_t seq;
     int64_t epoch;
     uint64_t at; /* sample with which it became due, or at which the body is to be given */
+    bool forget; /* the loop's until BODY_AWAITED: what is to be given is none */
+    _Atomic bool tell;
 
     /* Housekeeping's. */
     int64_t sent_at;  /* monotonic us: first */
@@ -102,8 +105,12 @@ bool model_store_poll_body(struct model_store *store, bool *awaited);
 /* Housekeeping: the sample at which a search became due is reached, or something else is. */
 void model_store_search_if_reached(struct model_store *store, int64_t now);
 void model_store_follow_search(struct model_store *store, int64_t now);
+/* Housekeeping: tells of the body in use, when it was asked to. */
+void model_store_tell_if_asked(struct model_store *store);
 /* Housekeeping: gives the body once the shadow stands where the loop waits. */
 void model_store_give_body(struct model_store *store, int64_t now);
+/* The body to begin the next search with is the one of the settings, or none. */
+void model_store_begin_with(struct model_store *store);
 /* Housekeeping: the model was replaced. */
 void model_store_drop_search(struct model_store *store);
 

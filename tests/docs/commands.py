@@ -9,7 +9,7 @@ import known
 
 # Programs of others that the documentation may use.
 OUTSIDE = """
-apt-get cat cc cd cmake cpack ctest dpkg echo exit export git install ip jobs journalctl kill
+apt-get cat cc cd cmake cpack ctest dpkg echo exit export git head install ip jobs journalctl jq kill
 lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat pip pkg-config sleep sysctl systemctl
 systemd-analyze wait for done if fi .venv/bin/rerun
 """.split()  # noqa: SIM905, a list of words

@@ -12,7 +12,11 @@ sys.path.insert(0, str(HERE.parent / "system"))
 
 import recorded_runs  # noqa: E402  (it is not installed anywhere)
 
-RUNS = {"lockstep": recorded_runs.lockstep, "real-time": recorded_runs.real_time}
+RUNS = {
+    "lockstep": recorded_runs.lockstep,
+    "real-time": recorded_runs.real_time,
+    "body": lambda out: recorded_runs.lockstep_without_eyes(out, samples=15),
+}
 MOST_BYTES = 300_000
 CORPUS = HERE.parent / "fuzz/corpus/replay/beginning.lcmlog"
 

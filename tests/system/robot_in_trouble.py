@@ -2,6 +2,8 @@
 tests of failures share."""
 
 import ctypes
+import itertools
+import math
 import os
 import signal
 import tempfile
@@ -18,6 +20,8 @@ from reach.processes import Processes
 ARM = slice(0, 4)
 # Where the robot is when a relay stands between it and the daemon.
 ROBOT_URL = "udpm://239.255.76.68:7668?ttl=0"
+PERIOD = 0.02
+STEP = math.radians(600) * PERIOD  # the gate's acceleration, rad/s a period
 PATIENCE = 15.0  # s; machines that test are busy
 SEIZE, INTERRUPT, DETACH, WAIT_ALL = 0x4206, 0x4207, 17, 0x40000000
 
@@ -37,10 +41,13 @@ def may_run_in_real_time() -> bool:
 class Trouble:
     """A context: reachd, simrobot and, on demand, vision in real time."""
 
-    def __init__(self, vision: bool = False, robot_url: str = DEFAULT_URL):
+    def __init__(
+        self, vision: bool = False, robot_url: str = DEFAULT_URL, stderr: Path | None = None
+    ):
+        """`stderr`: where reachd writes its log instead of into a file of ours."""
         self._folder = tempfile.TemporaryDirectory()
         self.processes = Processes(Path(self._folder.name))
-        self._vision, self._robot_url = vision, robot_url
+        self._vision, self._robot_url, self._stderr = vision, robot_url, stderr
 
     def __enter__(self) -> "Trouble":
         try:
@@ -69,8 +76,11 @@ class Trouble:
         clock = [] if may_run_in_real_time() else ["--no-rt"]
         # Without eyes a configuration is given up after a second, so that the arm moves on.
         timeout = "8" if self._vision else "1"
+        elsewhere = [] if self._stderr is None else [
+            "sh", "-c", 'exec "$@" 2>"$0"', self._stderr
+        ]  # fmt: skip
         self.processes.start(
-            "reachd", ["env", *(f"{k}={v}" for k, v in environment.items()),
+            "reachd", [*elsewhere, "env", *(f"{k}={v}" for k, v in environment.items()),
                        programs.BINARIES / "reachd", "--config", ROOT / "etc/kobian.yaml",
                        "--url", DEFAULT_URL, "--set", f"fixation.timeout={timeout}", *clock],
         )  # fmt: skip
@@ -157,8 +167,17 @@ class Trouble:
         self.until(lambda: self.status_is(reach.status_t.IDLE), "idle after the reset")
 
 
+def assert_brakes(trouble: Trouble, first: int) -> None:
+    """From command number `first` on the arm's speed falls as fast as it may, and stays 0."""
+    speeds = [max(map(abs, c.velocity[ARM])) for _, c in trouble.commands[first:]]
+    at_rest = next((i for i, speed in enumerate(speeds) if speed == 0), math.inf)
+    assert at_rest <= 7, speeds
+    for before, after in itertools.pairwise(speeds):
+        assert before - STEP - 1e-9 <= after <= max(before, 1e-9), speeds
+
+
 class Frozen:
-    """A context: one thread of a process stands still, the others run."""
+    """A context: one thread of a process stands still, the others run. The process may end."""
 
     _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -166,6 +185,7 @@ class Frozen:
         tasks = Path(f"/proc/{pid}/task")
         names = {int(t.name): (t / "comm").read_text().strip() for t in tasks.iterdir()}
         self._tid = next(tid for tid, name in names.items() if name == thread)
+        self._ended = False
         self._trace(SEIZE)
 
     def __enter__(self) -> "Frozen":
@@ -174,7 +194,15 @@ class Frozen:
         return self
 
     def __exit__(self, *_) -> None:
-        self._trace(DETACH)
+        if not self._ended:
+            self._trace(DETACH)
+
+    def let_end(self) -> None:
+        """To be called again and again while the process may end: it does so once the end of the
+        frozen thread has been heard."""
+        if not self._ended:
+            pid, status = os.waitpid(self._tid, WAIT_ALL | os.WNOHANG)
+            self._ended = pid != 0 and not os.WIFSTOPPED(status)
 
     def _trace(self, what: int) -> None:
         if self._libc.ptrace(what, self._tid, None, None) == -1:

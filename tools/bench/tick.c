@@ -127,7 +127,7 @@ static int reach(struct bench *bench, int calls, struct durations *times, char *
 /* As the daemon does it. Returns 0 or -1. */
 static int create_tick(struct bench *bench, char *error, size_t error_size)
 {
-    const struct model_store_settings kept = model_of_store_settings(&bench->config, NULL);
+    const struct model_store_settings kept = model_of_store_settings(&bench->config, NULL, NULL);
     struct tick_settings settings = {.config = &bench->config};
 
     bench->arena = arena_create(tick_memory(&bench->config) + model_store_memory());

@@ -1,6 +1,7 @@
 """Static proof about the loop thread of reachd, from the compiler's own call graph: no recursion,
 no frame of unknown size, a stack that fits into what is touched at start, and no way to a function
-of the C library that is not on a short list. Part of ./run lint.
+of the C library that is not on a short list. The same of the watchdog's way to brake, whose list is
+shorter still: no lock, no heap, no pipe. Part of ./run lint.
 
 The sources are compiled once more, with the flags of the build and -fcallgraph-info=su (gcc). Calls
 by pointer are not in the graph: CALLS_BY_POINTER below says which table each of them goes through,
@@ -21,6 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("common", "daemon", "learner")  # what the loop is made of
 ENTRY = "daemon/realtime/loop.c:run_loop"
+BRAKE = "brake_step"
 # Called before the first tick alone; what they call does not count.
 AT_START = {
     "pthread_self",
@@ -36,8 +38,13 @@ LIBRARY = {
     "sqrt", "exp", "log", "log1p", "pow", "ceil", "floor", "fmod", "sin", "cos", "tan", "atan",
     "atan2",
     "lgamma", "round", "llround", "hypot", "cbrt", "acos", "asin", "fmin", "fmax", "ldexp", "frexp",
-    "clock_gettime", "clock_nanosleep", "nanosleep", "getrusage", "sem_post", "sem_timedwait",
+    "clock_gettime", "clock_nanosleep", "nanosleep", "getrusage", "sem_post", "sem_clockwait",
     "__errno_location", "__stack_chk_fail", "__assert_fail",
+}  # fmt: skip
+# What may be reached from BRAKE. LCM's encoder is generated: it stores numbers into a buffer.
+BRAKE_LIBRARY = {
+    "memcpy", "memset", "fmin", "fmax", "clock_gettime", "sendto", "reach_robot_command_t_encode",
+    "__stack_chk_fail",
 }  # fmt: skip
 # Tables of functions, by the type of the table: who calls through which of its members.
 CALLS_BY_POINTER = {
@@ -158,12 +165,19 @@ def is_eigen(name: str) -> bool:
 class Proof:
     """Walks the graph from the entry; `faults` are sentences."""
 
-    def __init__(self, functions: dict[str, Function]):
-        self._functions = functions
+    def __init__(
+        self, functions: dict[str, Function], entry: str = ENTRY, library: set[str] = LIBRARY
+    ):
+        self._functions, self._allowed = functions, library
+        self._whose = "the loop" if entry == ENTRY else "the brake"
         self._deepest: dict[str, tuple[int, list[str]]] = {}
         self._path: list[str] = []
         self.faults: list[str] = []
-        self.depth, self.deepest_path = self._walk(ENTRY)
+        self.depth, self.deepest_path = 0, []
+        if functions.get(entry, Function()).stack < 0:
+            self.faults.append(f"{entry} is not in the graph")
+        else:
+            self.depth, self.deepest_path = self._walk(entry)
 
     @property
     def visited(self) -> int:
@@ -198,8 +212,8 @@ class Proof:
         caller = self._path[-1]
         if name == "__indirect_call":
             self.faults.append(f"{caller} calls by pointer; say in tools/dev/loop_stack.py what")
-        elif name not in LIBRARY and not (name in EIGEN_LIBRARY and is_eigen(caller)):
-            self.faults.append(f"{' -> '.join([*self._path, name])}: not for the loop")
+        elif name not in self._allowed and not (name in EIGEN_LIBRARY and is_eigen(caller)):
+            self.faults.append(f"{' -> '.join([*self._path, name])}: not for {self._whose}")
         return LIBRARY_STACK, [name]
 
 
@@ -235,11 +249,12 @@ def main() -> int:
         print("\n".join(f"{functions.get(n, Function()).stack:8} {n}" for n in proof.deepest_path))
     if proof.depth > limit():
         proof.faults.append(f"the stack may be {proof.depth} bytes deep, {limit()} are touched")
-    for fault in proof.faults:
+    brake = Proof(functions, BRAKE, BRAKE_LIBRARY)
+    for fault in proof.faults + brake.faults:
         print(f"loop_stack: {fault}")
     print(f"loop_stack: {proof.visited} functions, at most {proof.depth} bytes of stack,"
-          f" {limit()} are touched")  # fmt: skip
-    return 1 if proof.faults else 0
+          f" {limit()} are touched; {brake.visited} to brake")  # fmt: skip
+    return 1 if proof.faults or brake.faults else 0
 
 
 if __name__ == "__main__":

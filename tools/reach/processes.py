@@ -72,6 +72,10 @@ class Processes:
     def pid(self, name: str) -> int:
         return self._running[name].pid
 
+    def release(self, name: str) -> subprocess.Popen:
+        """Hands it over, forgotten as by kill(): it may end by itself."""
+        return self._running.pop(name)
+
     def kill(self, name: str) -> None:
         """Outright, and forgotten: check() does not miss it, start() may start it again."""
         process = self._running.pop(name)

@@ -2,7 +2,8 @@
 
 #include "common/bus/open.h"
 #include "common/bus/status_words.h"
-#include "tools/reachctl/show.h"
+#include "learner/bus/body_message.h"
+#include "tools/reachctl/view/show.h"
 
 #include <lcm/lcm.h>
 #include <reach_sim_truth_t.h>
@@ -16,6 +17,8 @@ struct client {
     bool has_status;
     reach_status_t status;
     int64_t simulator_done; /* newest sim_request_t.seq carried out */
+    bool has_body;
+    reach_body_t body; /* newest that can be used */
 };
 
 static void on_status(const lcm_recv_buf_t *message, const char *channel,
@@ -37,6 +40,17 @@ static void on_truth(const lcm_recv_buf_t *message, const char *channel,
     ((struct client *)user)->simulator_done = truth->request_seq;
 }
 
+static void on_body(const lcm_recv_buf_t *message, const char *channel, const reach_body_t *body,
+                    void *user)
+{
+    struct client *client = (struct client *)user;
+
+    (void)message;
+    (void)channel;
+    client->body = *body;
+    client->has_body = true;
+}
+
 struct client *client_create(const char *url, char *error, size_t error_size)
 {
     lcm_t *lcm = bus_open(url, error, error_size);
@@ -53,6 +67,7 @@ struct client *client_create(const char *url, char *error, size_t error_size)
     client->lcm = lcm;
     reach_status_t_subscribe(lcm, "REACH_STATUS", on_status, client);
     reach_sim_truth_t_subscribe(lcm, "SIM_TRUTH", on_truth, client);
+    reach_body_t_subscribe(lcm, "REACH_BODY_IN_USE", on_body, client);
     return client;
 }
 
@@ -136,6 +151,28 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
     if (status->request_result == REACH_STATUS_T_ACCEPTED)
         return 0;
     snprintf(error, error_size, "reachd: %s", status_result_word(status->request_result));
+    return -1;
+}
+
+int client_ask_body(struct client *client, const reach_request_t *request, double timeout,
+                    struct body *body, char *error, size_t error_size)
+{
+    reach_request_t asked = *request;
+    int64_t deadline = deadline_after(timeout);
+
+    client->has_body = false;
+    if (client_ask_daemon(client, &asked, timeout, error, error_size)) {
+        if (client->status.request_seq == asked.seq)
+            snprintf(error, error_size, "no body is found: %s",
+                     status_body_word(client->status.body));
+        return -1;
+    }
+    while (!client->has_body)
+        if (!handle_before(client, deadline))
+            return no_daemon(timeout, error, error_size);
+    if (body_message_take(&client->body, body))
+        return 0;
+    snprintf(error, error_size, "the body that came on REACH_BODY_IN_USE cannot be used");
     return -1;
 }
 

@@ -2,6 +2,7 @@
 #ifndef REACHCTL_CLIENT_H
 #define REACHCTL_CLIENT_H
 
+#include "learner/body/body.h"
 #include "tools/reachctl/command.h"
 
 #include <reach_status_t.h>
@@ -24,6 +25,11 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
                       size_t error_size);
 int client_ask_simulator(struct client *client, reach_sim_request_t *request, double timeout,
                          char *error, size_t error_size);
+
+/* Has the daemon tell of the body that it uses.
+ *   returns 0, or -1 with one line in `error` */
+int client_ask_body(struct client *client, const reach_request_t *request, double timeout,
+                    struct body *body, char *error, size_t error_size);
 
 /* Sends without waiting. Returns 0 or -1. */
 int client_tell_simulator(struct client *client, reach_sim_request_t *request);

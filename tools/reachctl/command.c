@@ -139,10 +139,21 @@ static int fill_until(const struct context *context)
     return 0;
 }
 
+static int fill_echo(const struct context *context)
+{
+    context->call->channel = context->arguments[0];
+    return 0;
+}
+
 static const struct command looking_commands[] = {
     {"status", "", 0, CALL_STATUS, 0, NULL, "show the state of the daemon; --json: for programs"},
     {"top", "", 0, CALL_TOP, 0, NULL,
      "show what is on the bus until q is pressed; --once: one frame"},
+    {"body", "", 0, CALL_BODY, REACH_REQUEST_T_TELL_BODY, NULL,
+     "show the robot's body as it was found; --dh: as numbers of Denavit and Hartenberg; "
+     "--urdf FILE: write it as a URDF"},
+    {"echo", "CHANNEL", 1, CALL_ECHO, 0, fill_echo,
+     "print what is said on CHANNEL, a line of JSON a message; --once: one message"},
     {"doctor", "", 0, CALL_DOCTOR, 0, NULL,
      "find what is wrong with this machine or the bus; --json: for programs"},
     {0}};
@@ -164,6 +175,8 @@ static const struct command daemon_commands[] = {
     {"save", "N", 1, CALL_DAEMON, REACH_REQUEST_T_SAVE, fill_model, "save the model as number N"},
     {"load", "N", 1, CALL_DAEMON, REACH_REQUEST_T_LOAD, fill_model,
      "load the model that was saved as number N"},
+    {"forget-body", "", 0, CALL_DAEMON, REACH_REQUEST_T_FORGET_BODY, NULL,
+     "give up the body that was found and search anew, in the samples that are kept"},
     {"reset-fault", "", 0, CALL_DAEMON, REACH_REQUEST_T_RESET_FAULT, NULL, "leave the fault state"},
     {0}};
 

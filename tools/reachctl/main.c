@@ -1,13 +1,17 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
 #include "common/bus/open.h"
 #include "common/options/command_line.h"
+#include "tools/reachctl/body/show.h"
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
-#include "tools/reachctl/show.h"
-#include "tools/reachctl/top.h"
+#include "tools/reachctl/view/echo.h"
+#include "tools/reachctl/view/show.h"
+#include "tools/reachctl/view/top.h"
 
+#include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_WORDS = 8 };
 
@@ -23,13 +27,18 @@ static const struct argument_row rows[] = {
                      "wait this long for an answer; default 5"),
     ARGUMENT_ON("wait", 0, struct arguments, settings.wait, "until what was asked for has ended"),
     ARGUMENT_ON("json", 0, struct arguments, settings.json, "status or doctor as JSON"),
-    ARGUMENT_ON("once", 0, struct arguments, settings.once, "top: one frame, then the end"),
+    ARGUMENT_ON("once", 0, struct arguments, settings.once,
+                "top: one frame, then the end; echo: one message"),
     ARGUMENT_INT64("seed", "S", struct arguments, settings.seed, INT64_MIN, INT64_MAX,
                    "of random configurations and goals; default 1"),
     ARGUMENT_ON("frozen", 0, struct arguments, settings.frozen,
                 "use the model without teaching it"),
     ARGUMENT_TEXT("file", 0, "F", struct arguments, settings.file,
                   "targets of coordinate, lines 'u v disparity' in pixels"),
+    ARGUMENT_TEXT("urdf", 0, "FILE", struct arguments, settings.urdf,
+                  "body: write it there as a URDF"),
+    ARGUMENT_ON("dh", 0, struct arguments, settings.dh,
+                "body: as numbers of Denavit and Hartenberg"),
     ARGUMENT_SECONDS("period", "S", struct arguments, settings.period, "time for each target"),
     ARGUMENT_END,
 };
@@ -74,6 +83,35 @@ static int show_status(struct client *client, const struct command_settings *set
     return 0;
 }
 
+static int write_urdf(const struct body *body, const char *path, char *error, size_t error_size)
+{
+    FILE *file = fopen(path, "w");
+
+    if (file)
+        body_write_urdf(body, file);
+    if (!file || ferror(file) || fclose(file) != 0) {
+        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+        return -1;
+    }
+    return 0;
+}
+
+static int show_body_in_use(struct client *client, const struct call *call,
+                            const struct command_settings *settings, char *error, size_t error_size)
+{
+    static struct body body;
+
+    if (client_ask_body(client, &call->request, settings->timeout, &body, error, error_size))
+        return -1;
+    if (settings->urdf)
+        return write_urdf(&body, settings->urdf, error, error_size);
+    if (settings->dh)
+        body_write_dh(&body, stdout);
+    else
+        body_show(&body, stdout);
+    return 0;
+}
+
 /* What needs somebody who answers. */
 static int ask(struct client *client, struct call *call, const struct command_settings *settings,
                char *error, size_t error_size)
@@ -81,6 +119,8 @@ static int ask(struct client *client, struct call *call, const struct command_se
     switch (call->kind) {
     case CALL_STATUS:
         return show_status(client, settings, error, error_size);
+    case CALL_BODY:
+        return show_body_in_use(client, call, settings, error, error_size);
     case CALL_DAEMON:
         if (client_ask_daemon(client, &call->request, settings->timeout, error, error_size))
             return -1;
@@ -106,6 +146,9 @@ static int carry_out(struct call *call, const struct command_settings *settings,
         return top_run(settings->url, settings->once, settings->timeout, error, error_size);
     if (call->kind == CALL_DOCTOR)
         return doctor_run(settings->url, settings->json, error, error_size);
+    if (call->kind == CALL_ECHO)
+        return echo_run(settings->url, call->channel, settings->once, settings->timeout, error,
+                        error_size);
     client = client_create(settings->url, error, error_size);
     if (!client)
         return -1;

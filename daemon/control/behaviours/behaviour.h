@@ -29,7 +29,8 @@ struct pair {
 /* What comes into one tick. */
 struct senses {
     const struct config *config;
-    int64_t now;            /* us */
+    int64_t now;            /* of stamps, us: may be set back or forth */
+    int64_t time;           /* of durations, us: goes on by a period a period */
     const double *q;        /* all joints, arm first, rad */
     const double *previous; /* velocities commanded in the tick before, rad/s */
     const struct sight *sight;

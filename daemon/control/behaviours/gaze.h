@@ -18,14 +18,15 @@ enum gaze_state {
 struct gaze {
     const struct config *config;
     struct head_search search;
-    int64_t last_seen; /* us; the clock's start when never */
+    int64_t last_seen; /* us of senses.time; 0 = never */
 };
 
 void gaze_init(struct gaze *gaze, const struct config *config);
 
-/* One period: head velocities (rad/s) for the head at q (rad). With `may_search` false the head
- * rests when the marker is out of view, for instance while the arm still moves. */
-enum gaze_state gaze_step(struct gaze *gaze, const struct sight *sight, int64_t now,
+/* One period, at `now` of the stamps and `time` of the durations (us): head velocities (rad/s) for
+ * the head at q (rad). With `may_search` false the head rests when the marker is out of view, for
+ * instance while the arm still moves. */
+enum gaze_state gaze_step(struct gaze *gaze, const struct sight *sight, int64_t now, int64_t time,
                           const double *q, bool may_search, double velocity[HEAD_JOINTS]);
 
 #endif

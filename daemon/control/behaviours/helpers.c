@@ -31,8 +31,8 @@ enum gaze_state control_gaze(const struct senses *senses, struct wants *wants, b
 
     if (senses->config->space.n_head == 0)
         return sight_seen(senses->sight, senses->now) ? GAZE_ON_MARKER : GAZE_WAITING;
-    return gaze_step(wants->gaze, senses->sight, senses->now, senses->q + n_arm, may_search,
-                     wants->velocity + n_arm);
+    return gaze_step(wants->gaze, senses->sight, senses->now, senses->time, senses->q + n_arm,
+                     may_search, wants->velocity + n_arm);
 }
 
 void control_task_velocity(const struct senses *senses, struct wants *wants,

@@ -33,7 +33,7 @@ static bool is_due(struct practice *practice, const struct progress *progress,
     bool missed, again = practice->again;
 
     if (progress->phase != REACH_STATUS_T_TRACK || targets->deadline == 0 ||
-        senses->now < targets->deadline)
+        senses->time < targets->deadline)
         return false;
     missed = misses(senses, targets->target[progress->done]);
     practice->missed = (uint8_t)(practice->missed << 1 | missed);

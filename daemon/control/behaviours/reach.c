@@ -46,16 +46,16 @@ static bool is_stuck(struct reach *reach, const double *target, const struct sen
     }
     if (sqrt(sum) < progress_most * reach->nearest) {
         reach->nearest = sqrt(sum);
-        reach->nearest_at = senses->now;
+        reach->nearest_at = senses->time;
     }
-    return reach->nearest > close && senses->now - reach->nearest_at > patience_us;
+    return reach->nearest > close && senses->time - reach->nearest_at > patience_us;
 }
 
 static void go_straight(struct reach *reach, const struct senses *senses)
 {
     reach->way = WAY_STRAIGHT;
     reach->nearest = INFINITY;
-    reach->nearest_at = senses->now;
+    reach->nearest_at = senses->time;
 }
 
 /* Imagines the way to a new target, then drives to the posture that was found where the straight
@@ -111,9 +111,9 @@ static void approach(struct reach *reach, struct progress *progress, const doubl
     control_approach(senses, wants, targets->setpoint, config->task_gain, velocity);
     memcpy(wants->target, target, sizeof wants->target);
     if (sight_seen(senses->sight, senses->now)) {
-        wants->gaze->last_seen = senses->now;
+        wants->gaze->last_seen = senses->time;
         control_task_velocity(senses, wants, velocity);
-    } else if ((double)(senses->now - wants->gaze->last_seen) * 1e-6 > config->fixation_timeout) {
+    } else if ((double)(senses->time - wants->gaze->last_seen) * 1e-6 > config->fixation_timeout) {
         targets_refixate(targets, progress);
     }
 }

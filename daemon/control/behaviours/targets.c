@@ -81,7 +81,7 @@ enum targets_work targets_step(struct targets *targets, struct progress *progres
         prepare(targets, progress, senses, wants);
         return TARGETS_PREPARE;
     }
-    if (!is_new && senses->now >= targets->deadline) {
+    if (!is_new && senses->time >= targets->deadline) {
         progress->done++;
         is_new = true;
     }
@@ -90,6 +90,6 @@ enum targets_work targets_step(struct targets *targets, struct progress *progres
     *target = targets->target[progress->done];
     if (!is_new)
         return TARGETS_PURSUE;
-    targets->deadline = senses->now + targets->period;
+    targets->deadline = senses->time + targets->period;
     return TARGETS_PRESENT;
 }

@@ -28,8 +28,8 @@ bool arm_output(const struct body *body, const double *tip, const double *z, dou
 /* The same as it is measured. */
 bool arm_sample(const struct body *body, const double *tip, const double *z, double *x);
 
-/* A learner with experts: body of so many inputs, of places or, with `sees`, of eyes, and of at most
- * `capacity` contexts. */
+/* A learner with experts: body of so many inputs, of places or, with `sees`, of eyes, and of at
+ * most `capacity` contexts. */
 struct learner_config body_config(int n_inputs, bool sees, int capacity);
 
 #ifdef __cplusplus

@@ -145,6 +145,9 @@ START_TEST(what_does_not_fit_together_is_refused)
     refuses("motion.head_acceleration=200", "could not be followed");
     refuses("safety.reaction=0.2", "would have to brake before the motion slows down");
     refuses("safety.reaction=0.1", "safety.loop_stall");
+    refuses("safety.loop_stall=0.02", "safety.loop_stall is below three periods");
+    refuses("safety.loop_stall=0.03", "safety.loop_stall is below three periods");
+    refuses("safety.loop_stall=0.0599", "safety.loop_stall is below three periods");
     refuses("safety.state_suspend=0.01", "state_suspend");
     refuses("head.search_velocity=100", "head.search_velocity");
     refuses("learner.reference=[0]", "learner.reference");

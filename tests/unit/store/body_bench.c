@@ -60,7 +60,15 @@ static bool take(void *user, struct body_answer *answer)
     return true;
 }
 
-const struct finder_port body_bench_port = {.ask = ask, .ask_again = ask_again, .take = take};
+static void tell(void *user, const struct body *body)
+{
+    (void)user;
+    ck_assert_int_eq(body->chain.n, 2);
+    body_bench_finder.told++;
+}
+
+const struct finder_port body_bench_port = {
+    .ask = ask, .ask_again = ask_again, .take = take, .tell = tell};
 
 struct model_store_settings body_bench_settings(const char *directory)
 {
@@ -114,7 +122,7 @@ uint64_t body_bench_tick(struct store_bench *bench)
     uint64_t given = 0;
 
     model_store_poll(bench->store, &bench->learner);
-    if (model_store_moment(bench->store).body) {
+    if (model_store_moment(bench->store).body > 0) {
         ck_assert_uint_eq(model_store_moment(bench->store).body_checksum, 0xB0D1);
         given = model_samples(bench->learner);
     }
@@ -122,9 +130,24 @@ uint64_t body_bench_tick(struct store_bench *bench)
     return given;
 }
 
+struct body body_bench_body(void)
+{
+    struct body body;
+
+    make_body(&body);
+    return body;
+}
+
 uint64_t body_bench_hash_at(const struct model_store_settings *settings, uint64_t samples,
                             const uint64_t *given, int n)
 {
+    return body_bench_hash_forgetting(settings, samples, given, n, UINT64_MAX);
+}
+
+uint64_t body_bench_hash_forgetting(const struct model_store_settings *settings, uint64_t samples,
+                                    const uint64_t *given, int n, uint64_t taken)
+{
+    static const struct body none;
     struct store_bench bench = {.arena = arena_create(learner_memory(&settings->learner))};
     char error[200];
     struct body body;
@@ -140,6 +163,8 @@ uint64_t body_bench_hash_at(const struct model_store_settings *settings, uint64_
         for (int i = 0; i < n; i++)
             if (given[i] == number)
                 ck_assert_int_eq(learner_give_body(bench.learner, &body, error, sizeof error), 0);
+        if (number == taken)
+            ck_assert_int_eq(learner_give_body(bench.learner, &none, error, sizeof error), 0);
     }
     hash = store_bench_hash(&bench);
     arena_destroy(bench.arena);

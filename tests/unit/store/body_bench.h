@@ -19,6 +19,7 @@ struct body_bench_finder {
     int samples;      /* that it brought */
     bool started;     /* it brought a body to begin with */
     bool came, answered;
+    int told; /* of a body in use */
 };
 
 /* There is one of them at a time. */
@@ -36,8 +37,15 @@ bool body_bench_learn_one(struct store_bench *bench);
  * place, 0 = none did. */
 uint64_t body_bench_tick(struct store_bench *bench);
 
+/* The one that the finder finds. */
+struct body body_bench_body(void);
+
 /* The hash of a learner of so many samples, given the body after each of `n` numbers of samples. */
 uint64_t body_bench_hash_at(const struct model_store_settings *settings, uint64_t samples,
                             const uint64_t *given, int n);
+
+/* The same, whose body was taken away after sample `taken`. */
+uint64_t body_bench_hash_forgetting(const struct model_store_settings *settings, uint64_t samples,
+                                    const uint64_t *given, int n, uint64_t taken);
 
 #endif

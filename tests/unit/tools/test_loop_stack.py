@@ -19,14 +19,14 @@ edge: { sourcename: "step" targetname: "memcpy" label: "tick.c:2:2" }
 """
 
 
-def prove(text: str) -> loop_stack.Proof:
+def prove(text: str, *entry) -> loop_stack.Proof:
     functions: dict[str, loop_stack.Function] = {}
     with tempfile.NamedTemporaryFile("w", suffix=".ci") as file:
         file.write(text + "}\n")
         file.flush()
         loop_stack.read_graph(Path(file.name), functions)
     loop_stack.resolve_pointers(functions)
-    return loop_stack.Proof(functions)
+    return loop_stack.Proof(functions, *entry)
 
 
 def edge(source: str, target: str) -> str:
@@ -41,6 +41,16 @@ class LoopStack(unittest.TestCase):
         proof = prove(GOOD)
         self.assertEqual(proof.faults, [])
         self.assertEqual(proof.depth, 100 + 4000 + loop_stack.LIBRARY_STACK)
+
+    def test_the_brake_shares_nothing(self):
+        brake = (loop_stack.BRAKE, loop_stack.BRAKE_LIBRARY)
+        node = 'node: { title: "brake_step" label: "brake_step\\nb.c:1:1\\n16 bytes (static)" }\n'
+        good = GOOD + node + edge("brake_step", "sendto")
+        self.assertEqual(prove(good, *brake).faults, [])
+        for other in ("sem_post", "lcm_publish", "pthread_mutex_lock", "write", "malloc"):
+            faults = prove(good + edge("brake_step", other), *brake).faults
+            self.assertEqual(faults, [f"brake_step -> {other}: not for the brake"])
+        self.assertRegex(prove(GOOD, *brake).faults[0], "brake_step is not in the graph")
 
     def test_recursion(self):
         self.assert_finds(

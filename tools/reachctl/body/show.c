@@ -41,12 +41,13 @@ void body_show(const struct body *body, FILE *stream)
     fprintf(stream,
             "%d joints, found from %d samples; error %.2f of the noise on samples kept apart\n",
             chain->n, body->samples, body->error);
-    fprintf(stream, "joint  kind    axis at the middle          sure to   to the next   range\n");
+    fprintf(stream, "joint  kind    axis at the middle          sure to   to the next   range seen\n");
     for (int i = 0; i < chain->n; i++) {
         double sure = doubt_of_three(body, 3 * i) / degree;
         double length = i + 1 < chain->n ? vec3_length(chain->offset[i + 1]) : 0;
-        fprintf(stream, "%5d  %-6s  %+.4f %+.4f %+.4f   ", i, chain->slides[i] ? "slides" : "turns",
-                chain->axis[i][0], chain->axis[i][1], chain->axis[i][2]);
+        fprintf(stream, "%5d  %-6s  %+.4f %+.4f %+.4f   ", i + 1,
+                chain->slides[i] ? "slides" : "turns", chain->axis[i][0], chain->axis[i][1],
+                chain->axis[i][2]);
         if (sure < unknown)
             fprintf(stream, "%6.2f deg", sure);
         else
@@ -69,7 +70,7 @@ static void write_joint(const struct body *body, int i, FILE *stream)
     for (int k = 0; k < 3; k++)
         step[k] = pose.place[i][k] - (i > 0 ? pose.place[i - 1][k] : 0);
     fprintf(stream, "  <link name=\"link%d\"/>\n", i + 1);
-    fprintf(stream, "  <joint name=\"joint%d\" type=\"%s\">\n", i,
+    fprintf(stream, "  <joint name=\"joint%d\" type=\"%s\">\n", i + 1,
             chain->slides[i] ? "prismatic" : "revolute");
     fprintf(stream, "    <parent link=\"link%d\"/>\n    <child link=\"link%d\"/>\n", i, i + 1);
     fprintf(stream, "    <origin xyz=\"%.9g %.9g %.9g\"/>\n", step[0], step[1], step[2]);
@@ -105,7 +106,7 @@ void body_write_dh(const struct body *body, FILE *stream)
             dh.base[8]);
     fprintf(stream, "joint,kind,theta,d,a,alpha\n");
     for (int i = 0; i < dh.n; i++)
-        fprintf(stream, "%d,%s,%.6f,%.6f,%.6f,%.6f\n", i,
+        fprintf(stream, "%d,%s,%.6f,%.6f,%.6f,%.6f\n", i + 1,
                 body->chain.slides[i] ? "slides" : "turns", dh.row[i].theta / degree, dh.row[i].d,
                 dh.row[i].a, dh.row[i].alpha / degree);
 }

@@ -2,7 +2,7 @@
 #include "common/program/version.h"
 #include "tools/reachctl/doctor/census.h"
 #include "tools/reachctl/doctor/doctor.h"
-#include "tools/reachctl/doctor/multicast.h"
+#include "common/bus/multicast.h"
 
 #include <poll.h>
 #include <sys/random.h>
