@@ -187,6 +187,7 @@ static void forget_body(struct body_learner *learner)
 {
     double inputs[LEARNER_MAX_INPUTS];
 
+    learner->given_up = 0.0;
     if (!learner->found)
         return;
     learner->found = learner->doubtful = false;
