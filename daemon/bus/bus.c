@@ -23,6 +23,8 @@
 #define REPORTS 4
 #define BODIES 4
 
+static const int config_patience_ms = 100;
+
 struct daemon_bus {
     lcm_t *lcm;
     struct mailbox *states, *observations, *requests, *outgoing, *reports, *bodies;
@@ -279,10 +281,12 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
 
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
 {
-    const struct timespec moment = {.tv_nsec = 1000000};
-
-    while (atomic_load_explicit(&bus->config_waits, memory_order_acquire))
-        nanosleep(&moment, NULL); /* the one before is on its way */
+    /* The one before is on its way; a sender that stands still holds up nobody. */
+    for (int ms = 0; atomic_load_explicit(&bus->config_waits, memory_order_acquire); ms++) {
+        if (ms == config_patience_ms)
+            return;
+        sleep_until((bus_monotonic_us() + 1000) * 1000);
+    }
     config_message(config, &bus->config);
     bus->config.seq = ++bus->configs;
     atomic_store_explicit(&bus->config_waits, true, memory_order_release);

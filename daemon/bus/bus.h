@@ -71,7 +71,8 @@ void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample
 void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
                             const reach_trace_t *trace);
 
-/* Main thread: says on the bus what the loop works with, or will after this call. */
+/* Main thread: says on the bus what the loop works with, or will after this call. Gives up after
+ * 0.1 s in which the one before could not be sent; it is to be called again and again. */
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
 
 /* An emergency stop reaches the loop even when the mailbox of requests is full. */

@@ -138,6 +138,8 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->fault = tick->fault;
     status->request_seq = tick->request_seq;
     status->request_result = tick->request_result;
+    status->model_request_seq = tick->model_request_seq;
+    status->model_result = tick->model_result;
     status->marker_seen = sight_seen(&tick->sight, now);
     status->fixated = sight_fixated(&tick->sight);
     status->space = (int8_t)tick->config->space.kind;

@@ -215,6 +215,8 @@ static int evaluate(struct run *run)
         result->statistics = learner_get_statistics(run->learner);
         result->has_body = has_body(run);
         result->seeker = run->seeker;
+        result->change = learner_get_body_change(run->learner);
+        result->has_rest = learner_not_rigid(run->learner, result->not_rigid) == 0;
         result->update = durations_summarise(&run->updates);
         result->predict = durations_summarise(&run->predictions);
         durations_clear(&run->updates);

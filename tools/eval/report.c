@@ -101,9 +101,24 @@ static void sets_to_json(const struct request *request, const struct report_resu
     json_end_object(json);
 }
 
-/* Of the newest search; `found` says whether the learner stands on a body. */
-static void body_to_json(const struct seeker *seeker, struct json *json)
+/* The newest change's cause by its number, from 1: an input, or "view". */
+static void change_to_json(const struct learner_body_change *change, int n_inputs,
+                           struct json *json)
 {
+    json_count(json, "changes", (size_t)change->changes);
+    if (change->cause >= n_inputs)
+        json_text(json, "changed", "view");
+    else if (change->cause >= 0)
+        json_count(json, "changed", (size_t)change->cause + 1);
+    if (change->cause >= 0)
+        json_numbers(json, "changed_by", change->cause < n_inputs ? 1 : 3, change->by);
+    json_number(json, "slip", change->slip);
+}
+
+/* Of the newest search; `found` says whether the learner stands on a body. */
+static void body_to_json(const struct report_result *result, int n_inputs, struct json *json)
+{
+    const struct seeker *seeker = &result->seeker;
     static const char *const outcomes[] = {"found", "not yet", "no chain"};
     const struct finder_report *newest = &seeker->report;
 
@@ -119,6 +134,9 @@ static void body_to_json(const struct seeker *seeker, struct json *json)
     json_number(json, "seconds", seeker->seconds);
     json_count(json, "found_at", (size_t)seeker->found_at);
     json_number(json, "found_seconds", seeker->found > 0 ? seeker->found_seconds : NAN);
+    change_to_json(&result->change, n_inputs, json);
+    if (result->has_rest)
+        json_numbers(json, "not_rigid", 3, result->not_rigid);
     json_end_object(json);
 }
 
@@ -137,7 +155,7 @@ static void result_to_json(const struct request *request, const struct report_re
     json_count(json, "refused", statistics->refused);
     json_count(json, "frozen", result->frozen);
     if (result->has_body)
-        body_to_json(&result->seeker, json);
+        body_to_json(result, request->n_inputs, json);
     durations_to_json(&result->update, "update_us", json);
     durations_to_json(&result->predict, "predict_us", json);
     sets_to_json(request, result, false, json);
@@ -234,6 +252,14 @@ void report_print(const struct request *request, const struct report_result *res
     if (result->has_body && result->seeker.searches > 0)
         fprintf(out, "  body: %s, %d searches, %.1f s\n", result->seeker.report.why,
                 result->seeker.searches, result->seeker.seconds);
+    if (result->has_rest)
+        fprintf(out, "  no rigid chain explains %.3g %.3g %.3g of the outputs\n",
+                result->not_rigid[0], result->not_rigid[1], result->not_rigid[2]);
+    if (result->change.changes > 0)
+        fprintf(out, "  the body has changed %llu times, the last in %s %d\n",
+                (unsigned long long)result->change.changes,
+                result->change.cause < request->n_inputs ? "joint" : "the view, number",
+                result->change.cause + 1);
     for (int i = 0; i < request->n_sets; i++)
         print_set(&request->sets[i], &result->sets[i], out);
     fflush(out);

@@ -21,12 +21,15 @@ struct report_set {
 struct report_result {
     size_t at;
     struct learner_statistics statistics;
-    size_t frozen;                    /* samples whose outputs stood still while inputs moved */
-    bool has_body;                    /* experts: body; then */
-    struct seeker seeker;             /* what was found of it */
-    struct durations_summary update;  /* of the updates since the result before */
-    struct durations_summary predict; /* of this result's predictions */
-    struct report_set *sets;          /* in the order of the request's */
+    size_t frozen;                     /* samples whose outputs stood still while inputs moved */
+    bool has_body;                     /* experts: body; then */
+    struct seeker seeker;              /* what was found of it */
+    struct learner_body_change change; /* and what has changed since */
+    bool has_rest;                     /* there is a body; then */
+    double not_rigid[LEARNER_MAX_OUTPUTS]; /* what no rigid chain explains */
+    struct durations_summary update;       /* of the updates since the result before */
+    struct durations_summary predict;      /* of this result's predictions */
+    struct report_set *sets;               /* in the order of the request's */
 };
 
 struct report {
