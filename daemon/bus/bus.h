@@ -7,6 +7,7 @@
 #include "common/base/mailbox.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/config/config.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/senses/observation.h"
 
 #include <lcm/lcm.h>
@@ -84,7 +85,8 @@ bool daemon_bus_take_emergency(struct daemon_bus *bus);
  * that it does not take in time are lost. */
 struct mailbox *daemon_bus_reports(struct daemon_bus *bus);
 
-/* Messages refused so far: malformed, or more than the mailboxes hold. */
-int64_t daemon_bus_refused(const struct daemon_bus *bus);
+/* Messages refused so far: malformed, or more than the mailboxes hold. `count` is overwritten. */
+void daemon_bus_refused(const struct daemon_bus *bus,
+                        int64_t count[REFUSALS_CHANNELS][REFUSALS_REASONS]);
 
 #endif

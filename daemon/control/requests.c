@@ -139,6 +139,6 @@ void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
         tick->request_seq = tick->request_seq_now = request->seq;
         tick->request_result = answer_request(tick, request, senses, wants);
         if (tick->request_result == REACH_STATUS_T_REFUSED_VALUE)
-            tick->bad_inputs++;
+            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_REQUEST, REACH_STATUS_T_VALUE);
     }
 }

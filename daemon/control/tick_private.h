@@ -8,6 +8,7 @@
 #include "daemon/control/behaviours/table.h"
 #include "daemon/control/kinematics/estimate.h"
 #include "daemon/control/limits/safety.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/context.h"
 #include "daemon/control/senses/joint_history.h"
@@ -46,7 +47,8 @@ struct tick {
     int64_t state_utime;  /* its time, us */
     double state_age;     /* since it came, s */
     int64_t sample_seq;
-    int64_t bad_inputs;
+    struct refusals refusals;
+    int64_t unanswered; /* state of lockstep that was refused in this tick, 0 = none */
 
     int64_t request_seq;   /* newest looked at */
     int8_t request_result; /* constants of status_t */

@@ -187,10 +187,10 @@ static void forget_body(struct body_learner *learner)
 {
     double inputs[LEARNER_MAX_INPUTS];
 
+    learner->given_up = 0.0;
     if (!learner->found)
         return;
     learner->found = learner->doubtful = false;
-    learner->given_up = 0.0;
     learner->contest = contest_begin();
     imle_forget(learner->meanwhile);
     kept_clear(&learner->waiting);

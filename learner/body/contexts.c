@@ -323,7 +323,8 @@ static void relearn(struct contexts *contexts, int j)
 void contexts_forget(struct contexts *contexts)
 {
     contexts->n = 0;
-    contexts->streak = contexts->streak_left = 0.0;
+    contexts->streak = contexts->streak_left = contexts->looked = 0.0;
+    contexts->news = (struct body_news){.cause = -1};
 }
 
 void contexts_stand_on(struct contexts *contexts, const struct body *body)

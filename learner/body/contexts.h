@@ -99,13 +99,13 @@ size_t contexts_memory(int n_joints);
 /* Doubles of an anchor, which lie behind each other from its theta on. */
 size_t contexts_anchor_numbers(const struct design *design);
 
-/* Without contexts again; no number is given twice. */
-void contexts_forget(struct contexts *contexts);
-
 /* No contexts yet, and nothing in `body`, which must stay: it is theirs. NULL when the arena is
  * exhausted. */
 struct contexts *contexts_create(struct body *body, int n_joints, int most,
                                  const struct kernels *kernels, struct arena *arena);
+
+/* Without contexts and without a body again; no number is given twice. */
+void contexts_forget(struct contexts *contexts);
 
 /* From now on on a copy of this body, which is corrected where it changes: every context is learned
  * anew from what it has kept. */

@@ -24,7 +24,7 @@ struct report_result {
     size_t frozen;                     /* samples whose outputs stood still while inputs moved */
     bool has_body;                     /* experts: body; then */
     struct seeker seeker;              /* what was found of it */
-    struct learner_body_change change; /* and what has changed since */
+    struct learner_body_change change; /* what has changed since */
     bool has_rest;                     /* there is a body; then */
     double not_rigid[LEARNER_MAX_OUTPUTS]; /* what no rigid chain explains */
     struct durations_summary update;       /* of the updates since the result before */
