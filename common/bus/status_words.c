@@ -3,11 +3,13 @@
 #include <assert.h>
 #include <reach_status_t.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const char *const faults[] = {"none", "late again and again", "emergency stop",
-                                     "the loop stood still"};
+static const char *const faults[] = {"none",           "late again and again",
+                                     "emergency stop", "the loop stood still",
+                                     "a joint jumped", "two senders of ROBOT_STATE"};
 static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
 static const char *const behaviours[] = {"none", "babble", "coordinate", "reach", "explore"};
 static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
@@ -19,7 +21,7 @@ static const char *const bodies[] = {"none yet", "searching", "found", "not a ch
                                      "no reach-finder on the bus"};
 
 static_assert(COUNT(bodies) == REACH_STATUS_T_BODY_NO_FINDER + 1, "a name for each body");
-static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_STALL + 1, "a name for each fault");
+static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_SENDERS + 1, "a name for each fault");
 static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
 static_assert(COUNT(behaviours) == REACH_STATUS_T_EXPLORE + 1, "a name for each behaviour");
 static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");
@@ -33,6 +35,17 @@ static const char *word(const char *const *names, size_t n, int index)
 const char *status_fault_word(int fault)
 {
     return word(faults, COUNT(faults), fault);
+}
+
+void status_fault_text(const reach_status_t *status, char *text, size_t size)
+{
+    const char *fault = status_fault_word(status->fault);
+
+    if (status->fault_joint > 0)
+        snprintf(text, size, "%s: joint %d by %.3g rad", fault, status->fault_joint,
+                 status->fault_value);
+    else
+        snprintf(text, size, "%s", fault);
 }
 
 const char *status_state_word(int state)

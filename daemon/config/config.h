@@ -27,7 +27,8 @@ struct config {
     double safety_state_hold, safety_state_suspend; /* ages of the robot state, s */
     double safety_reaction, safety_latency; /* that braking before a limit reckons with, s */
     double safety_loop_stall;               /* standstill of the loop, s */
-    int safety_overruns_fault;              /* late ticks in a row that are a fault */
+    double safety_jump;        /* of a joint between two states, beyond what it can move, rad */
+    int safety_overruns_fault; /* late ticks in a row that are a fault */
 
     double head_gain;      /* eq. 11, 1/s */
     double head_smoothing; /* of the way to a target that the arm follows, s */

@@ -28,6 +28,24 @@ static inline void refusals_add(struct refusals *refusals, int channel, int reas
     refusals->count[channel][reason]++;
 }
 
+/* The newest robot state that was refused, into a status, */
+static inline void refusals_name_state(const struct refusals *refusals, reach_status_t *status)
+{
+    status->refused_state = refusals->state_seq;
+    status->refused_joint = refusals->state.joint;
+    status->refused_value = refusals->state.value;
+    status->refused_min = refusals->state.min;
+    status->refused_max = refusals->state.max;
+}
+
+/* and out of one. */
+static inline void refusals_take_state(const reach_status_t *status, struct refusals *refusals)
+{
+    refusals->state_seq = status->refused_state;
+    refusals->state = (struct state_fault){status->refused_joint, status->refused_value,
+                                           status->refused_min, status->refused_max};
+}
+
 /* Adds counts to those of a status, and to their sum. */
 static inline void refusals_into_status(const int64_t count[REFUSALS_CHANNELS][REFUSALS_REASONS],
                                         reach_status_t *status)

@@ -141,16 +141,6 @@ static void report_model(const struct tick *tick, reach_status_t *status)
     status->dropped_samples = tick->queue.dropped;
 }
 
-static void report_refusals(const struct refusals *refusals, reach_status_t *status)
-{
-    refusals_into_status(refusals->count, status);
-    status->refused_state = refusals->state_seq;
-    status->refused_joint = refusals->state.joint;
-    status->refused_value = refusals->state.value;
-    status->refused_min = refusals->state.min;
-    status->refused_max = refusals->state.max;
-}
-
 static void report_status(const struct tick *tick, int64_t now, reach_status_t *status)
 {
     memset(status, 0, sizeof *status);
@@ -159,6 +149,8 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->state_seq = tick->state_seq;
     status->state = (int8_t)tick->state;
     status->fault = tick->fault;
+    status->fault_joint = tick->fault_joint;
+    status->fault_value = tick->fault_joint ? tick->fault_value : 0;
     status->request_seq = tick->request_seq;
     status->request_result = tick->request_result;
     status->model_request_seq = tick->model_request_seq;
@@ -167,7 +159,8 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->fixated = sight_fixated(&tick->sight);
     status->space = (int8_t)tick->config->space.kind;
     status->error = error_norm(tick);
-    report_refusals(&tick->refusals, status);
+    refusals_into_status(tick->refusals.count, status);
+    refusals_name_state(&tick->refusals, status);
     status->staleness = tick->state_known ? tick->state_age : -1;
     status->gated = tick->safety.changed;
     report_behaviour(tick, status);

@@ -25,8 +25,10 @@ enum supervisor_condition {
     CONDITION_RESET_REQUESTED = 1 << 5, /* the user wants a fault cleared */
     CONDITION_EMERGENCY = 1 << 6,       /* somebody wants the arm stopped at once */
     CONDITION_STALLED = 1 << 7,         /* the loop stood still, the watchdog had to brake */
+    CONDITION_JUMPS = 1 << 8,           /* a joint is read where it cannot be */
+    CONDITION_SENDERS = 1 << 9,         /* two programs send robot states */
 };
-#define SUPERVISOR_N_CONDITIONS 8
+#define SUPERVISOR_N_CONDITIONS 10
 
 enum supervisor_state supervisor_next(enum supervisor_state state, uint32_t conditions);
 

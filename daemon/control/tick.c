@@ -8,6 +8,7 @@
 #include "daemon/control/limits/safety.h"
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/joint_history.h"
+#include "daemon/control/senses/senders.h"
 #include "daemon/control/senses/sight.h"
 #include "daemon/control/supervisor.h"
 #include "daemon/control/tick_private.h"
@@ -16,7 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-static const int64_t overtaken_us = 200000;  /* the most that messages overtake each other */
+static const int64_t overtaken_us =
+    SENDERS_OVERTAKEN;                       /* the most that messages overtake each other */
 static const int64_t forgotten_us = 1000000; /* less than the joints are remembered */
 
 size_t tick_memory(const struct config *config)
@@ -45,6 +47,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
         return NULL;
+    plausible_init(&tick->plausible, config);
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
     estimate_init(&tick->estimate, config_arm_joints(config), SPACE_DIMENSIONS,
@@ -114,6 +117,7 @@ static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
 {
     const reach_robot_state_t *state = &inputs->state;
     struct state_fault fault;
+    bool good, jumps;
 
     tick->unanswered = 0;
     if (!inputs->has_state)
@@ -122,8 +126,14 @@ static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
         refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_STATE, REACH_STATUS_T_TIME);
         return false;
     }
-    if (!inputs_state_ok(tick->config, state, &fault))
+    good = inputs_state_ok(tick->config, state, &fault);
+    jumps = (good || fault.joint > 0) &&
+            plausible_strikes_jump(&tick->plausible, state, good, tick->time);
+    if (!good)
         return refuse_state(tick, state, REACH_STATUS_T_VALUE, &fault);
+    if (jumps)
+        return refuse_state(tick, state, REACH_STATUS_T_JUMP, &tick->plausible.jump);
+    plausible_believe(&tick->plausible, state);
     return true;
 }
 
@@ -133,6 +143,7 @@ static void take_state(struct tick *tick, const struct tick_inputs *inputs)
     const reach_robot_state_t *state = &inputs->state;
 
     tick->state_seq_now = 0;
+    plausible_crossed(&tick->plausible, inputs->crossed, tick->time);
     if (!is_good(tick, inputs)) {
         tick->state_age = fmax(inputs->state_age, tick->state_age + tick->config->period);
         return;
@@ -200,7 +211,8 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
     if (tick->state_known)
         set |= CONDITION_STATE_KNOWN;
-    if (tick->state_age <= tick->config->safety_state_hold && !tick->unanswered)
+    if (tick->state_age <= tick->config->safety_state_hold && !tick->unanswered &&
+        !plausible_doubts(&tick->plausible, tick->time))
         set |= CONDITION_STATE_FRESH;
     if (tick->state_age <= tick->config->safety_state_suspend)
         set |= CONDITION_STATE_ALIVE;
@@ -214,6 +226,10 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
         set |= CONDITION_STALLED;
     if (tick->reset_requested)
         set |= CONDITION_RESET_REQUESTED;
+    if (plausible_jumps(&tick->plausible, tick->time))
+        set |= CONDITION_JUMPS;
+    if (plausible_two_senders(&tick->plausible, tick->time))
+        set |= CONDITION_SENDERS;
     return set;
 }
 
@@ -223,6 +239,12 @@ static void supervise(struct tick *tick, const struct tick_inputs *inputs)
 
     tick->state = supervisor_next(tick->state, set);
     tick->fault = supervisor_fault(tick->state, set, tick->fault);
+    if (tick->fault != REACH_STATUS_T_FAULT_JUMP)
+        tick->fault_joint = 0;
+    else if (tick->fault_joint == 0) {
+        tick->fault_joint = tick->plausible.jump.joint;
+        tick->fault_value = tick->plausible.jumped;
+    }
     tick->reset_requested = false;
     tick->emergency_requested = false;
     /* A fault ends the work: what was wanted before it may no longer be. */
@@ -271,6 +293,7 @@ static void take_config(struct tick *tick, const struct config *config)
     tick->sight.config = config;
     tick->gaze.config = config;
     tick->safety.config = config;
+    tick->plausible.config = config;
 }
 
 /* Counted on the loop's grid, which no clock that is set moves. */

@@ -36,6 +36,7 @@ struct tick_inputs {
     uint32_t request_checksum[TICK_MAX_REQUESTS];
     bool overrunning; /* the loop was late too often */
     bool emergency;   /* somebody wants the arm stopped at once */
+    int crossed;      /* states since the last tick, good ones, that crossed (senses/senders.h) */
     int braked;       /* braking commands that the watchdog sent since the last tick */
     int64_t slipped;  /* periods that went by without a tick since the last one */
     bool robot_rests; /* no command went out for so long that the robot stopped by itself */

@@ -12,6 +12,7 @@
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/context.h"
 #include "daemon/control/senses/joint_history.h"
+#include "daemon/control/senses/plausible.h"
 #include "daemon/control/senses/sight.h"
 #include "daemon/control/supervisor.h"
 #include "daemon/control/tick.h"
@@ -22,6 +23,7 @@ struct tick {
     struct model_port model;
     const struct behaviour_ops *const *behaviours;
     struct sample_queue queue;
+    struct plausible plausible;
     struct history history;
     struct sight sight;
     struct estimate estimate;
@@ -35,8 +37,10 @@ struct tick {
 
     enum supervisor_state state;
     bool state_known;
-    bool touched; /* by anything that matters since it began */
-    int8_t fault; /* constants of status_t */
+    bool touched;       /* by anything that matters since it began */
+    int8_t fault;       /* constants of status_t */
+    int fault_joint;    /* that it is of, from 1; 0 = of none, */
+    double fault_value; /* and how much it is */
     bool reset_requested;
     bool emergency_requested;
     bool had_body;        /* experts stood on a body in the tick before */

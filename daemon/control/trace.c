@@ -27,6 +27,7 @@ void trace_inputs(const struct tick_inputs *inputs, reach_trace_t *trace)
     }
     trace->slipped = inputs->slipped;
     trace->braked = inputs->braked;
+    trace->crossed = inputs->crossed;
     trace->overrunning = inputs->overrunning;
     trace->emergency = inputs->emergency;
     trace->robot_rests = inputs->robot_rests;
@@ -36,7 +37,7 @@ bool trace_inputs_matter(const struct tick_inputs *inputs)
 {
     return inputs->has_state || inputs->n_observations > 0 || inputs->n_requests > 0 ||
            inputs->config || inputs->overrunning || inputs->emergency || inputs->braked > 0 ||
-           inputs->robot_rests;
+           inputs->crossed > 0 || inputs->robot_rests;
 }
 
 void trace_to_inputs(const reach_trace_t *trace, struct tick_inputs *inputs)
@@ -45,6 +46,7 @@ void trace_to_inputs(const reach_trace_t *trace, struct tick_inputs *inputs)
     inputs->state_age = trace->state_age;
     inputs->slipped = trace->slipped;
     inputs->braked = trace->braked;
+    inputs->crossed = trace->crossed;
     inputs->overrunning = trace->overrunning != 0;
     inputs->emergency = trace->emergency != 0;
     inputs->robot_rests = trace->robot_rests != 0;

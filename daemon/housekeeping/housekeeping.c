@@ -50,15 +50,16 @@ static void say_what_is_awaited(struct housekeeping *housekeeping)
 static void say_fault(struct housekeeping *housekeeping)
 {
     int8_t fault = housekeeping->status.fault;
+    char text[128];
 
     if (fault == housekeeping->fault)
         return;
     housekeeping->fault = fault;
+    status_fault_text(&housekeeping->status, text, sizeof text);
     if (fault == REACH_STATUS_T_FAULT_NONE)
         log_warning("the fault was reset");
     else
-        log_error("fault: %s; the arm is held until 'reachctl reset-fault'",
-                  status_fault_word(fault));
+        log_error("fault: %s; the arm is held until 'reachctl reset-fault'", text);
 }
 
 /* At most a line a second, however many messages are refused. */

@@ -74,11 +74,13 @@ static void step_lockstep(struct step *step, struct due_observations *waiting)
     int64_t begin;
 
     step->inputs.n_observations = 0;
+    step->inputs.crossed = 0;
     if (inputs_state_ok(step->config, state, &fault)) {
         if (step->any_state && state->utime < step->newest_utime)
             due_observations_init(waiting); /* the simulator began anew */
         if (!wait_for_observation(step, waiting, due_with(step, state)))
             return;
+        step->inputs.crossed = senders_cross(&step->senders, state);
         step->any_state = true;
         step->newest_utime = state->utime;
     } /* else it is answered at once: what it says is due may never come */

@@ -20,9 +20,15 @@ static void take_newest_state(struct step *step)
     bool any_good = false;
 
     inputs->has_state = false;
+    inputs->crossed = 0;
     while (mailbox_take(daemon_bus_states(step->bus), &received)) {
         bool good = inputs_state_ok(step->config, &received.state, &fault);
-        step->bad_states += inputs->has_state && !(any_good && good);
+        if (inputs->has_state && !(any_good && good))
+            refusals_add(&step->refusals, REACH_STATUS_T_CHANNEL_STATE, REACH_STATUS_T_VALUE);
+        if (!good) {
+            step->refusals.state_seq = received.state.seq;
+            step->refusals.state = fault;
+        }
         if (any_good && !good)
             continue;
         inputs->has_state = true;
@@ -30,6 +36,7 @@ static void take_newest_state(struct step *step)
         inputs->state_checksum = received.checksum;
         if (!good)
             continue;
+        inputs->crossed += senders_cross(&step->senders, &received.state);
         any_good = step->any_state = true;
         step->received = received;
     }

@@ -48,8 +48,13 @@ void step_report(struct step *step, int64_t now)
     status->overruns = step->overruns;
     status->slips = step->slips;
     daemon_bus_refused(step->bus, trace->refused);
-    trace->refused[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_VALUE] = step->bad_states;
+    trace->refused[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_VALUE] =
+        step->refusals.count[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_VALUE];
     refusals_into_status(trace->refused, status);
+    if (status->refused_state != step->refused_by_tick)
+        refusals_take_state(status, &step->refusals);
+    step->refused_by_tick = status->refused_state;
+    refusals_name_state(&step->refusals, status);
     daemon_bus_send_report(step->bus, status, trace);
     atomic_fetch_add_explicit(&step->ticks, 1, memory_order_relaxed);
 }

@@ -6,6 +6,7 @@
 #include "common/base/duration_histogram.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/config.h"
+#include "daemon/control/senses/senders.h"
 #include "daemon/control/tick.h"
 #include "daemon/realtime/loop_wait.h"
 #include "daemon/realtime/watchdog.h"
@@ -23,12 +24,16 @@ struct step {
     struct tick_inputs inputs;
     struct tick_outputs outputs;
     struct received_state received; /* newest state taken from the mailbox */
+    struct senders senders;
     bool any_state;
     int64_t newest_utime; /* lockstep: of the newest good one, us */
 
     struct duration_histogram compute, wakeup;
-    int64_t overruns, slips, bad_states;
-    int64_t page_faults; /* before the first tick */
+    int64_t overruns, slips;
+    struct refusals
+        refusals; /* counts: states that no tick was given; its state: the newest of all */
+    int64_t refused_by_tick; /* the newest that the tick has refused */
+    int64_t page_faults;     /* before the first tick */
     int overruns_in_a_row;
 
     _Atomic(const struct config *) offered;

@@ -8,6 +8,11 @@ static void take_measured_status(const reach_status_t *recorded, reach_status_t 
     replayed->samples_stored = recorded->samples_stored;
     replayed->storing = recorded->storing;
     replayed->store_waits = recorded->store_waits;
+    replayed->refused_state = recorded->refused_state; /* of some no tick was told */
+    replayed->refused_joint = recorded->refused_joint;
+    replayed->refused_value = recorded->refused_value;
+    replayed->refused_min = recorded->refused_min;
+    replayed->refused_max = recorded->refused_max;
     replayed->body = recorded->body;
     replayed->body_searches = recorded->body_searches;
     memcpy(replayed->body_not_rigid, recorded->body_not_rigid, sizeof replayed->body_not_rigid);

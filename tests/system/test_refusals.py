@@ -61,6 +61,27 @@ class Refusals(unittest.TestCase):
         self.assertEqual(findings["refused messages"]["verdict"], "finding", findings)
         self.assertIn("ROBOT_STATE", findings["refused messages"]["text"])
 
+    def test_a_second_sender(self):
+        """It says that the arm is at rest at mid-range, with numbers of its own."""
+        self.start("--no-rt")
+        self.assertTrue(self.robot.run(10, lambda: self.robot.status), self.said())
+        self.robot.request(types.request_t.BABBLE, count=1000, seed=1)
+        moving = lambda: any(abs(v) > 0.2 for v in self.robot.commands[-1][:4])  # noqa: E731
+        self.assertTrue(self.robot.run(5, moving), self.said())
+        second, first_publish = Robot(), self.robot._publish_state
+        second._position = [0.0, -0.2, 0.5, -0.8, 0.0, 0.2]
+
+        def publish_both() -> None:
+            first_publish()
+            self.robot._lcm.publish("ROBOT_STATE", second.state_message())
+
+        self.robot._publish_state = publish_both
+        in_fault = lambda: self.robot.status.state == STATUS.FAULT  # noqa: E731
+        self.assertTrue(self.robot.run(1, in_fault), self.said())
+        self.robot.run(0.3)
+        self.assertFalse(any(self.robot.commands[-1]))
+        self.assertRegex(self.said(), "fault: (two senders of ROBOT_STATE|a joint jumped: joint)")
+
     def test_lockstep_answers(self):
         """The very first state, and one whose marker will never come."""
         self.start("--lockstep")

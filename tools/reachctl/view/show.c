@@ -82,14 +82,14 @@ static void show_change(const reach_status_t *status, FILE *out)
 
 void show_text(const reach_status_t *status, FILE *out)
 {
-    char body[128], refused[512];
+    char body[128], fault[128], refused[512];
 
     show_body(status, body, sizeof body);
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
             show_behaviour(status), show_phase(status));
+    status_fault_text(status, fault, sizeof fault);
     if (status->fault != REACH_STATUS_T_FAULT_NONE)
-        fprintf(out, "fault      %s; reachctl reset-fault leaves it\n",
-                status_fault_word(status->fault));
+        fprintf(out, "fault      %s; reachctl reset-fault leaves it\n", fault);
     fprintf(out, "progress   %d of %d, %d given up; error %.1f %s\n", status->progress,
             status->progress_total, status->skipped, show_error(status), show_error_unit(status));
     fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
