@@ -19,7 +19,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static const int claim_ms = 300; /* time for another daemon to answer */
@@ -75,19 +74,6 @@ static int claim_bus(struct reachd *reachd, char *error, size_t error_size)
         snprintf(error, error_size, "the bus failed");
         return -1;
     }
-}
-
-static int check_model_directory(const struct config *config, char *error, size_t error_size)
-{
-    struct stat status;
-
-    if (!config->model_directory[0])
-        return 0;
-    if (stat(config->model_directory, &status) == 0 && S_ISDIR(status.st_mode))
-        return 0;
-    snprintf(error, error_size, "model.directory: %s is not a directory; make it first",
-             config->model_directory);
-    return -1;
 }
 
 /* The control step, and who keeps its model, from which it goes on. */
@@ -250,7 +236,7 @@ static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
     if (reachd->arguments.n_replay > 0 || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
-    if (check_model_directory(&reachd->config, error, error_size))
+    if (model_of_store_check(&reachd->config, error, error_size))
         return -1;
     return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)
                                          : run_daemon(reachd, error, error_size);

@@ -1,18 +1,34 @@
 #include "common/bus/receiver.h"
 
 #include "common/base/thread.h"
+#include "common/bus/open.h"
 #include "common/program/log.h"
 
 static const int poll_ms = 100; /* how soon the thread sees that it is to end */
+static const int64_t say_again_us = 1000000;
+
+/* A bus that has failed for good fails at once, and the thread may have a priority over all others:
+ * it tries again now and then. */
+static void rest_from_failure(int64_t *said)
+{
+    int64_t now = bus_monotonic_us();
+
+    if (*said == 0 || now - *said >= say_again_us) {
+        *said = now;
+        log_error("the bus failed to receive");
+    }
+    sleep_until((now + (int64_t)poll_ms * 1000) * 1000);
+}
 
 static void *receive(void *user)
 {
     struct bus_receiver *receiver = user;
+    int64_t said = 0; /* when the log was last told of a failure, us */
 
     pthread_setname_np(pthread_self(), receiver->name);
     while (!atomic_load_explicit(&receiver->ending, memory_order_relaxed))
         if (lcm_handle_timeout(receiver->lcm, poll_ms) < 0)
-            log_error("the bus failed to receive");
+            rest_from_failure(&said);
     return NULL;
 }
 

@@ -1,5 +1,7 @@
 #include "common/options/options.h"
 
+#include "common/options/regular_file.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -273,13 +275,11 @@ static int apply_defaults(struct loading *loading, char *error, size_t error_siz
 
 static int apply_file(struct loading *loading, const char *path, char *error, size_t error_size)
 {
-    FILE *file = fopen(path, "r");
+    FILE *file = regular_file_open(path, error, error_size);
     int result;
 
-    if (!file) {
-        snprintf(error, error_size, "%s: %s", path, strerror(errno));
+    if (!file)
         return -1;
-    }
     result = options_read_yaml(path, file, apply_to_table, loading, error, error_size);
     fclose(file);
     return result;

@@ -23,6 +23,8 @@
 #define REPORTS 4
 #define BODIES 4
 
+static const int config_patience_ms = 100;
+
 struct daemon_bus {
     lcm_t *lcm;
     struct mailbox *states, *observations, *requests, *outgoing, *reports, *bodies;
@@ -30,7 +32,7 @@ struct daemon_bus {
     sem_t to_send;       /* posted for every outgoing message */
     _Atomic bool ending; /* the sending thread */
     _Atomic bool emergency;
-    _Atomic int64_t malformed;
+    _Atomic int64_t malformed[REFUSALS_CHANNELS];
     enum space_kind space;
     struct outgoing_messages out; /* the sending thread's */
     struct outgoing sending;      /* likewise */
@@ -53,9 +55,9 @@ size_t daemon_bus_memory(void)
            mailbox_memory(sizeof(struct received_body), BODIES);
 }
 
-static void refuse(struct daemon_bus *bus)
+static void refuse(struct daemon_bus *bus, int channel)
 {
-    atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(&bus->malformed[channel], 1, memory_order_relaxed);
 }
 
 static void deliver(struct daemon_bus *bus, struct mailbox *mailbox, const void *record)
@@ -74,7 +76,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     if (incoming_state(message->data, message->data_size, &received.state))
         deliver(bus, bus->states, &received);
     else
-        refuse(bus);
+        refuse(bus, REACH_STATUS_T_CHANNEL_STATE);
 }
 
 static void on_observation(const lcm_recv_buf_t *message, const char *channel, void *user)
@@ -86,7 +88,7 @@ static void on_observation(const lcm_recv_buf_t *message, const char *channel, v
     if (incoming_observation(bus->space, message->data, message->data_size, &observation))
         deliver(bus, bus->observations, &observation);
     else
-        refuse(bus);
+        refuse(bus, REACH_STATUS_T_CHANNEL_SENSE);
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
@@ -97,7 +99,7 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 
     (void)channel;
     if (!incoming_request(message->data, message->data_size, &received.request)) {
-        refuse(bus);
+        refuse(bus, REACH_STATUS_T_CHANNEL_REQUEST);
         return;
     }
     if (received.request.kind == REACH_REQUEST_T_EMERGENCY)
@@ -112,7 +114,7 @@ static void on_body(const lcm_recv_buf_t *message, const char *channel, void *us
 
     (void)channel;
     if (!incoming_body(message->data, message->data_size, &received))
-        refuse(bus);
+        refuse(bus, REACH_STATUS_T_CHANNEL_BODY);
     else
         mailbox_put(bus->bodies, &received); /* one that finds no room comes again */
 }
@@ -279,10 +281,12 @@ void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status
 
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config)
 {
-    const struct timespec moment = {.tv_nsec = 1000000};
-
-    while (atomic_load_explicit(&bus->config_waits, memory_order_acquire))
-        nanosleep(&moment, NULL); /* the one before is on its way */
+    /* The one before is on its way; a sender that stands still holds up nobody. */
+    for (int ms = 0; atomic_load_explicit(&bus->config_waits, memory_order_acquire); ms++) {
+        if (ms == config_patience_ms)
+            return;
+        sleep_until((bus_monotonic_us() + 1000) * 1000);
+    }
     config_message(config, &bus->config);
     bus->config.seq = ++bus->configs;
     atomic_store_explicit(&bus->config_waits, true, memory_order_release);
@@ -299,9 +303,21 @@ bool daemon_bus_take_emergency(struct daemon_bus *bus)
     return atomic_exchange_explicit(&bus->emergency, false, memory_order_acq_rel);
 }
 
-int64_t daemon_bus_refused(const struct daemon_bus *bus)
+void daemon_bus_refused(const struct daemon_bus *bus,
+                        int64_t count[REFUSALS_CHANNELS][REFUSALS_REASONS])
 {
-    return atomic_load_explicit(&bus->malformed, memory_order_relaxed) +
-           (int64_t)(mailbox_refused(bus->states) + mailbox_refused(bus->observations) +
-                     mailbox_refused(bus->requests) + mailbox_refused(bus->outgoing));
+    const struct mailbox *const full[REFUSALS_CHANNELS] = {
+        [REACH_STATUS_T_CHANNEL_STATE] = bus->states,
+        [REACH_STATUS_T_CHANNEL_SENSE] = bus->observations,
+        [REACH_STATUS_T_CHANNEL_REQUEST] = bus->requests,
+        [REACH_STATUS_T_CHANNEL_OUT] = bus->outgoing,
+    };
+
+    memset(count, 0, sizeof(int64_t) * REFUSALS_CHANNELS * REFUSALS_REASONS);
+    for (int i = 0; i < REFUSALS_CHANNELS; i++) {
+        count[i][REACH_STATUS_T_MALFORMED] =
+            atomic_load_explicit(&bus->malformed[i], memory_order_relaxed);
+        if (full[i])
+            count[i][REACH_STATUS_T_FULL] = (int64_t)mailbox_refused(full[i]);
+    }
 }

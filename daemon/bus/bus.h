@@ -7,6 +7,7 @@
 #include "common/base/mailbox.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/config/config.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/senses/observation.h"
 
 #include <lcm/lcm.h>
@@ -71,7 +72,8 @@ void daemon_bus_send_sample(struct daemon_bus *bus, const reach_sample_t *sample
 void daemon_bus_send_report(struct daemon_bus *bus, const reach_status_t *status,
                             const reach_trace_t *trace);
 
-/* Main thread: says on the bus what the loop works with, or will after this call. */
+/* Main thread: says on the bus what the loop works with, or will after this call. Gives up after
+ * 0.1 s in which the one before could not be sent; it is to be called again and again. */
 void daemon_bus_send_config(struct daemon_bus *bus, const struct config *config);
 
 /* An emergency stop reaches the loop even when the mailbox of requests is full. */
@@ -83,7 +85,8 @@ bool daemon_bus_take_emergency(struct daemon_bus *bus);
  * that it does not take in time are lost. */
 struct mailbox *daemon_bus_reports(struct daemon_bus *bus);
 
-/* Messages refused so far: malformed, or more than the mailboxes hold. */
-int64_t daemon_bus_refused(const struct daemon_bus *bus);
+/* Messages refused so far: malformed, or more than the mailboxes hold. `count` is overwritten. */
+void daemon_bus_refused(const struct daemon_bus *bus,
+                        int64_t count[REFUSALS_CHANNELS][REFUSALS_REASONS]);
 
 #endif

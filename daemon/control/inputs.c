@@ -6,16 +6,24 @@ static const double range_slack = 0.35;  /* rad; an encoder may read a little be
 static const double velocity_most = 100; /* rad/s; nothing on a robot turns faster */
 static const int32_t model_number_most = 9999;
 
-bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state)
+/* Written so that a NaN fails. */
+static bool is_within(double value, double min, double max, int joint, struct state_fault *fault)
 {
+    *fault = (struct state_fault){joint + 1, value, min, max};
+    return value >= min && value <= max;
+}
+
+bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state,
+                     struct state_fault *fault)
+{
+    *fault = (struct state_fault){0};
     if (state->n_joints != config_joints(config) || state->utime <= 0 || state->seq <= 0)
         return false;
     for (int i = 0; i < state->n_joints; i++) {
         struct joint_limits limits = config_joint_limits(config, i);
-        /* Written so that a NaN fails. */
-        if (!(state->position[i] >= limits.min - range_slack &&
-              state->position[i] <= limits.max + range_slack) ||
-            !(fabs(state->velocity[i]) <= velocity_most))
+        if (!is_within(state->position[i], limits.min - range_slack, limits.max + range_slack, i,
+                       fault) ||
+            !is_within(state->velocity[i], -velocity_most, velocity_most, i, fault))
             return false;
     }
     return true;

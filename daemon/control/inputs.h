@@ -5,14 +5,17 @@
 #define REACH_DAEMON_CONTROL_INPUTS_H
 
 #include "daemon/config/config.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/senses/observation.h"
 
 #include <reach_request_t.h>
 #include <reach_robot_state_t.h>
 #include <stdbool.h>
 
-/* The robot's joints: as many as configured, finite, not absurdly beyond their range. */
-bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state);
+/* The robot's joints: as many as configured, finite, not absurdly beyond their range. When they are
+ * not, `fault` says what is wrong. */
+bool inputs_state_ok(const struct config *config, const reach_robot_state_t *state,
+                     struct state_fault *fault);
 
 /* An observation: finite, and where the task space could have it. */
 bool inputs_observation_ok(const struct config *config, const struct observation *observation);

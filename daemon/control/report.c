@@ -128,6 +128,16 @@ static void report_model(const struct tick *tick, reach_status_t *status)
     status->dropped_samples = tick->queue.dropped;
 }
 
+static void report_refusals(const struct refusals *refusals, reach_status_t *status)
+{
+    refusals_into_status(refusals->count, status);
+    status->refused_state = refusals->state_seq;
+    status->refused_joint = refusals->state.joint;
+    status->refused_value = refusals->state.value;
+    status->refused_min = refusals->state.min;
+    status->refused_max = refusals->state.max;
+}
+
 static void report_status(const struct tick *tick, int64_t now, reach_status_t *status)
 {
     memset(status, 0, sizeof *status);
@@ -138,11 +148,13 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->fault = tick->fault;
     status->request_seq = tick->request_seq;
     status->request_result = tick->request_result;
+    status->model_request_seq = tick->model_request_seq;
+    status->model_result = tick->model_result;
     status->marker_seen = sight_seen(&tick->sight, now);
     status->fixated = sight_fixated(&tick->sight);
     status->space = (int8_t)tick->config->space.kind;
     status->error = error_norm(tick);
-    status->bad_inputs = tick->bad_inputs;
+    report_refusals(&tick->refusals, status);
     status->staleness = tick->state_known ? tick->state_age : -1;
     status->gated = tick->safety.changed;
     report_behaviour(tick, status);

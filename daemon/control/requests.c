@@ -3,11 +3,19 @@
 
 #include <string.h>
 
+/* A save, load or forgetting is being worked on. */
+static bool model_works(const struct tick *tick)
+{
+    return tick->model_result == REACH_STATUS_T_PENDING;
+}
+
+/* Neither may the model be exchanged under a behaviour that steers by it, nor a behaviour begin
+ * while it is about to be. */
 static bool may_start(const struct tick *tick)
 {
     /* The tick after work is done still finds the state in which it was done. */
     return (tick->state == SUPERVISOR_IDLE || tick->state == SUPERVISOR_ACTIVE) &&
-           !tick->behaviour.ops;
+           !tick->behaviour.ops && !(model_works(tick) && tick->model_kind != REACH_REQUEST_T_SAVE);
 }
 
 static int8_t start_behaviour(struct tick *tick, const struct behaviour_ops *ops,
@@ -29,17 +37,6 @@ static int8_t start_behaviour(struct tick *tick, const struct behaviour_ops *ops
     return REACH_STATUS_T_ACCEPTED;
 }
 
-static bool begin_save(struct tick *tick, int number)
-{
-    return tick->model.ops->begin_save(tick->model.context, number);
-}
-
-/* The model must not change under a behaviour that steers by it. */
-static bool begin_load(struct tick *tick, int number)
-{
-    return may_start(tick) && tick->model.ops->begin_load(tick->model.context, number);
-}
-
 static bool tell_body(struct tick *tick)
 {
     if (!learner_body(tick->learner))
@@ -48,12 +45,32 @@ static bool tell_body(struct tick *tick)
     return true;
 }
 
-static bool begin_forgetting(struct tick *tick)
+/* Whether that could begin. */
+static bool begin_model_work(struct tick *tick, const struct model_port *model,
+                             const reach_request_t *request)
 {
-    if (!may_start(tick) || !learner_body(tick->learner))
-        return false;
-    tick->model.ops->begin_forgetting(tick->model.context);
-    return true;
+    switch (request->kind) {
+    case REACH_REQUEST_T_SAVE:
+        return model->ops->begin_save(model->context, request->count);
+    case REACH_REQUEST_T_LOAD:
+        return may_start(tick) && model->ops->begin_load(model->context, request->count);
+    default:
+        if (!may_start(tick) || !learner_body(tick->learner))
+            return false;
+        model->ops->begin_forgetting(model->context);
+        return true;
+    }
+}
+
+/* One after the other: what came of it is told by its own number, whatever else is asked. */
+static int8_t work_on_model(struct tick *tick, const reach_request_t *request)
+{
+    if (model_works(tick) || !begin_model_work(tick, &tick->model, request))
+        return REACH_STATUS_T_REFUSED_STATE;
+    tick->model_request_seq = request->seq;
+    tick->model_kind = request->kind;
+    tick->model_result = REACH_STATUS_T_PENDING;
+    return REACH_STATUS_T_PENDING;
 }
 
 /* What is asked of the daemon itself. */
@@ -72,15 +89,11 @@ static int8_t serve(struct tick *tick, const reach_request_t *request)
         tick->emergency_requested = true;
         return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_SAVE:
-        return begin_save(tick, request->count) ? REACH_STATUS_T_PENDING
-                                                : REACH_STATUS_T_REFUSED_STATE;
     case REACH_REQUEST_T_LOAD:
-        tick->loading = begin_load(tick, request->count);
-        return tick->loading ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
+    case REACH_REQUEST_T_FORGET_BODY:
+        return work_on_model(tick, request);
     case REACH_REQUEST_T_TELL_BODY:
         return tell_body(tick) ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_REFUSED_STATE;
-    case REACH_REQUEST_T_FORGET_BODY:
-        return begin_forgetting(tick) ? REACH_STATUS_T_PENDING : REACH_STATUS_T_REFUSED_STATE;
     default:
         return REACH_STATUS_T_REFUSED_VALUE;
     }
@@ -95,22 +108,22 @@ static int8_t answer_request(struct tick *tick, const reach_request_t *request,
     return ops ? start_behaviour(tick, ops, request, senses, wants) : serve(tick, request);
 }
 
-/* A save or a load that is over answers the request that waits for it. */
+/* A save, load or forgetting that is over answers the request that waits for it. */
 static void poll_model(struct tick *tick)
 {
-    bool had_body = learner_body(tick->learner) != NULL;
     enum model_result result = tick->model.ops->poll(tick->model.context, &tick->learner);
 
-    if (had_body != (learner_body(tick->learner) != NULL))
+    bool has_body = learner_body(tick->learner) != NULL;
+    if (has_body != tick->had_body)
         context_init(&tick->context); /* its experts are others; a later body keeps them */
-    if (result == MODEL_NOTHING)
+    tick->had_body = has_body;
+    if (result == MODEL_NOTHING || !model_works(tick))
         return;
-    if (tick->request_result == REACH_STATUS_T_PENDING)
-        tick->request_result =
-            result == MODEL_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
-    if (result == MODEL_DONE && tick->loading)
+    if (result == MODEL_DONE && tick->model_kind == REACH_REQUEST_T_LOAD)
         context_init(&tick->context); /* its experts are others */
-    tick->loading = false;
+    tick->model_result = result == MODEL_DONE ? REACH_STATUS_T_ACCEPTED : REACH_STATUS_T_FAILED;
+    if (tick->request_seq == tick->model_request_seq)
+        tick->request_result = tick->model_result;
 }
 
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
@@ -120,11 +133,12 @@ void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,
     tick->request_seq_now = 0;
     for (int i = 0; i < inputs->n_requests; i++) {
         const reach_request_t *request = &inputs->request[i];
-        if (request->seq == tick->request_seq)
+        if (request->seq == tick->request_seq ||
+            (request->seq == tick->model_request_seq && request->seq != 0))
             continue;
         tick->request_seq = tick->request_seq_now = request->seq;
         tick->request_result = answer_request(tick, request, senses, wants);
         if (tick->request_result == REACH_STATUS_T_REFUSED_VALUE)
-            tick->bad_inputs++;
+            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_REQUEST, REACH_STATUS_T_VALUE);
     }
 }

@@ -16,7 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-static const int64_t overtaken_us = 200000; /* the most that messages overtake each other */
+static const int64_t overtaken_us = 200000;  /* the most that messages overtake each other */
+static const int64_t forgotten_us = 1000000; /* less than the joints are remembered */
 
 size_t tick_memory(const struct config *config)
 {
@@ -96,14 +97,34 @@ static bool is_late(const struct tick *tick, const reach_robot_state_t *state)
            state->utime <= tick->state_utime && tick->state_utime - state->utime < overtaken_us;
 }
 
+/* Counts it, and keeps what was wrong. In lockstep its sender waits for an answer. */
+static bool refuse_state(struct tick *tick, const reach_robot_state_t *state, int reason,
+                         const struct state_fault *fault)
+{
+    struct refusals *refusals = &tick->refusals;
+
+    refusals_add(refusals, REACH_STATUS_T_CHANNEL_STATE, reason);
+    refusals->state_seq = state->seq;
+    refusals->state = *fault;
+    tick->unanswered = state->lockstep ? state->seq : 0;
+    return false;
+}
+
 static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
 {
-    if (!inputs->has_state || is_late(tick, &inputs->state))
+    const reach_robot_state_t *state = &inputs->state;
+    struct state_fault fault;
+
+    tick->unanswered = 0;
+    if (!inputs->has_state)
         return false;
-    if (inputs_state_ok(tick->config, &inputs->state))
-        return true;
-    tick->bad_inputs++;
-    return false;
+    if (is_late(tick, state)) {
+        refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_STATE, REACH_STATUS_T_TIME);
+        return false;
+    }
+    if (!inputs_state_ok(tick->config, state, &fault))
+        return refuse_state(tick, state, REACH_STATUS_T_VALUE, &fault);
+    return true;
 }
 
 /* Takes the state in. A bad one is dropped, the last good one kept until it is stale. */
@@ -128,15 +149,26 @@ static void take_state(struct tick *tick, const struct tick_inputs *inputs)
     history_push(&tick->history, state->utime, state->position);
 }
 
+/* Of a time of which no joints are known, nor soon will be. One that is only newer than the newest
+ * state, or was overtaken, is nothing to be told of. */
+static bool is_of_another_time(const struct tick *tick, const struct observation *observation)
+{
+    int64_t ahead = observation->utime - tick->state_utime;
+
+    return tick->state_known && (ahead > overtaken_us || ahead < -forgotten_us);
+}
+
 static void take_observations(struct tick *tick, const struct tick_inputs *inputs)
 {
     tick->marker_seq_now = 0;
     tick->sight.new_frame = false;
     for (int i = 0; i < inputs->n_observations; i++) {
         if (!inputs_observation_ok(tick->config, &inputs->observation[i]))
-            tick->bad_inputs++;
+            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_SENSE, REACH_STATUS_T_VALUE);
         else if (sight_observe(&tick->sight, &inputs->observation[i], &tick->history))
             tick->marker_seq_now = inputs->observation[i].seq;
+        else if (is_of_another_time(tick, &inputs->observation[i]))
+            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_SENSE, REACH_STATUS_T_TIME);
     }
 }
 
@@ -168,7 +200,7 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
 
     if (tick->state_known)
         set |= CONDITION_STATE_KNOWN;
-    if (tick->state_age <= tick->config->safety_state_hold)
+    if (tick->state_age <= tick->config->safety_state_hold && !tick->unanswered)
         set |= CONDITION_STATE_FRESH;
     if (tick->state_age <= tick->config->safety_state_suspend)
         set |= CONDITION_STATE_ALIVE;
@@ -222,11 +254,12 @@ static void fill_command(struct tick *tick, const struct wants *wants, int64_t n
 {
     reach_robot_command_t *command = &outputs->command;
 
-    outputs->has_command = tick->state_known;
-    *command = (reach_robot_command_t){.utime = now,
-                                       .seq = tick->seq,
-                                       .state_seq = tick->state_seq,
-                                       .n_joints = config_joints(tick->config)};
+    outputs->has_command = tick->state_known || tick->unanswered;
+    *command =
+        (reach_robot_command_t){.utime = now,
+                                .seq = tick->seq,
+                                .state_seq = tick->unanswered ? tick->unanswered : tick->state_seq,
+                                .n_joints = config_joints(tick->config)};
     memcpy(command->velocity, wants->velocity, sizeof command->velocity);
     safety_gate(&tick->safety, tick->q, command->velocity);
 }

@@ -8,6 +8,7 @@
 #include "daemon/control/behaviours/table.h"
 #include "daemon/control/kinematics/estimate.h"
 #include "daemon/control/limits/safety.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/context.h"
 #include "daemon/control/senses/joint_history.h"
@@ -38,7 +39,7 @@ struct tick {
     int8_t fault; /* constants of status_t */
     bool reset_requested;
     bool emergency_requested;
-    bool loading;         /* the request that is pending replaces the model */
+    bool had_body;        /* experts stood on a body in the tick before */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */
     int64_t time;         /* that durations are measured by, us; 0 = no tick yet */
@@ -46,10 +47,15 @@ struct tick {
     int64_t state_utime;  /* its time, us */
     double state_age;     /* since it came, s */
     int64_t sample_seq;
-    int64_t bad_inputs;
+    struct refusals refusals;
+    int64_t unanswered; /* state of lockstep that was refused in this tick, 0 = none */
 
     int64_t request_seq;   /* newest looked at */
     int8_t request_result; /* constants of status_t */
+
+    int64_t model_request_seq; /* newest save, load or forgetting that was begun */
+    int8_t model_kind;         /* of that request */
+    int8_t model_result;       /* a constant of status_t */
 
     /* This tick's, for the trace. */
     int64_t state_seq_now, marker_seq_now, request_seq_now;

@@ -1,6 +1,7 @@
 #include "daemon/housekeeping/housekeeping.h"
 
 #include "common/bus/open.h"
+#include "common/bus/refusals_text.h"
 #include "common/bus/status_words.h"
 #include "common/program/log.h"
 
@@ -9,6 +10,7 @@
 
 static const int period_ms = 20;
 static const int64_t announce_us = 1000000;
+static const int64_t say_refused_us = 1000000;
 static const int64_t patience_us = 3 * 1000000; /* before a wait in lockstep is worth a word */
 
 static sigset_t housekeeping_signals(void)
@@ -59,12 +61,28 @@ static void say_fault(struct housekeeping *housekeeping)
                   status_fault_word(fault));
 }
 
+/* At most a line a second, however many messages are refused. */
+static void say_refusals(struct housekeeping *housekeeping)
+{
+    int64_t now = bus_monotonic_us();
+    char text[512];
+
+    if (housekeeping->status.bad_inputs == housekeeping->refused.bad_inputs ||
+        (housekeeping->refused_said && now - housekeeping->refused_said < say_refused_us))
+        return;
+    refusals_text(&housekeeping->status, &housekeeping->refused, text, sizeof text);
+    log_warning("refused: %s", text);
+    housekeeping->refused = housekeeping->status;
+    housekeeping->refused_said = now;
+}
+
 static void tell_service_manager(struct housekeeping *housekeeping)
 {
     while (mailbox_take(daemon_bus_reports(housekeeping->bus), &housekeeping->status)) {
         housekeeping->any_status = true;
         say_fault(housekeeping);
     }
+    say_refusals(housekeeping);
     service_manager_tell(&housekeeping->service_manager, bus_monotonic_us(),
                          loop_ticks(housekeeping->loop),
                          loop_waits(housekeeping->loop) != LOOP_RUNS,

@@ -19,10 +19,12 @@ struct housekeeping {
     struct service_manager service_manager;
     reach_status_t status; /* the newest */
     bool any_status;
-    int8_t fault;          /* the newest that the log was told of, status_t.FAULT_* */
-    int64_t waiting_since; /* for a marker that is due, monotonic us; 0 = not waiting */
-    int64_t said;          /* when the log was last told of it, monotonic us */
-    int64_t announced;     /* when the bus was last told the configuration, monotonic us */
+    int8_t fault;           /* the newest that the log was told of, status_t.FAULT_* */
+    reach_status_t refused; /* at which the log was last told what was refused, */
+    int64_t refused_said;   /* and when, monotonic us; 0 = never */
+    int64_t waiting_since;  /* for a marker that is due, monotonic us; 0 = not waiting */
+    int64_t said;           /* when the log was last told of it, monotonic us */
+    int64_t announced;      /* when the bus was last told the configuration, monotonic us */
 };
 
 /* Blocks the signals that housekeeping_run receives. To be called before any thread starts. */

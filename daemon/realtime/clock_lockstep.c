@@ -1,6 +1,7 @@
 #include "daemon/realtime/clock.h"
 
 #include "common/bus/open.h"
+#include "daemon/control/inputs.h"
 #include "daemon/realtime/due_observations.h"
 
 #include <time.h>
@@ -69,15 +70,20 @@ static void learn_quota(struct step *step)
 static void step_lockstep(struct step *step, struct due_observations *waiting)
 {
     const reach_robot_state_t *state = &step->received.state;
+    struct state_fault fault;
     int64_t begin;
 
-    if (step->any_state && state->utime < step->inputs.state.utime)
-        due_observations_init(waiting); /* the simulator began anew */
-    if (!wait_for_observation(step, waiting, due_with(step, state)))
-        return;
+    step->inputs.n_observations = 0;
+    if (inputs_state_ok(step->config, state, &fault)) {
+        if (step->any_state && state->utime < step->newest_utime)
+            due_observations_init(waiting); /* the simulator began anew */
+        if (!wait_for_observation(step, waiting, due_with(step, state)))
+            return;
+        step->any_state = true;
+        step->newest_utime = state->utime;
+    } /* else it is answered at once: what it says is due may never come */
     await_store(step);
     begin = bus_monotonic_us();
-    step->any_state = true;
     step->inputs.has_state = true;
     step->inputs.state = *state;
     step->inputs.state_checksum = step->received.checksum;

@@ -10,24 +10,37 @@
 
 static const double learning_share = 0.6; /* of the period, after which no learning is begun */
 
+/* The newest good state of the period. Where there is none, the tick gets a bad one, to refuse it
+ * and say why; other bad ones are counted here. */
+static void take_newest_state(struct step *step)
+{
+    struct tick_inputs *inputs = &step->inputs;
+    struct received_state received;
+    struct state_fault fault;
+    bool any_good = false;
+
+    inputs->has_state = false;
+    while (mailbox_take(daemon_bus_states(step->bus), &received)) {
+        bool good = inputs_state_ok(step->config, &received.state, &fault);
+        step->bad_states += inputs->has_state && !(any_good && good);
+        if (any_good && !good)
+            continue;
+        inputs->has_state = true;
+        inputs->state = received.state;
+        inputs->state_checksum = received.checksum;
+        if (!good)
+            continue;
+        any_good = step->any_state = true;
+        step->received = received;
+    }
+}
+
 /* Real time: whatever has come counts now. */
 static void take_inputs(struct step *step)
 {
     struct tick_inputs *inputs = &step->inputs;
-    struct received_state received;
 
-    inputs->has_state = false;
-    while (mailbox_take(daemon_bus_states(step->bus), &received)) {
-        if (!inputs_state_ok(step->config, &received.state)) {
-            step->bad_states++; /* and hides no good one of the same period */
-            continue;
-        }
-        step->received = received;
-        inputs->has_state = true;
-        inputs->state = received.state;
-        inputs->state_checksum = received.checksum;
-        step->any_state = true;
-    }
+    take_newest_state(step);
     inputs->state_age =
         step->any_state ? (double)(bus_monotonic_us() - step->received.received) * 1e-6 : INFINITY;
     inputs->n_observations = 0;

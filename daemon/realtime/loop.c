@@ -77,7 +77,7 @@ static int enter_thread(struct loop *loop)
         thread_enter(THREAD_PRIORITY_LOOP, loop->start_error, sizeof loop->start_error))
         return -1;
     thread_touch_stack();
-    if (confine_thread(loop->start_error, sizeof loop->start_error))
+    if (confine_thread(loop->lockstep, loop->start_error, sizeof loop->start_error))
         return -1;
     loop->step.page_faults = thread_page_faults();
     return 0;

@@ -33,6 +33,7 @@ void step_decide(struct step *step, int64_t now)
 void step_report(struct step *step, int64_t now)
 {
     reach_status_t *status = &step->outputs.status;
+    reach_trace_t *trace = &step->outputs.trace;
 
     tick_report(step->tick, now, &step->outputs);
     status->compute_us = step->compute.last;
@@ -46,8 +47,9 @@ void step_report(struct step *step, int64_t now)
     status->page_faults = thread_page_faults() - step->page_faults;
     status->overruns = step->overruns;
     status->slips = step->slips;
-    step->outputs.trace.refused = daemon_bus_refused(step->bus) + step->bad_states;
-    status->bad_inputs += step->outputs.trace.refused;
-    daemon_bus_send_report(step->bus, status, &step->outputs.trace);
+    daemon_bus_refused(step->bus, trace->refused);
+    trace->refused[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_VALUE] = step->bad_states;
+    refusals_into_status(trace->refused, status);
+    daemon_bus_send_report(step->bus, status, trace);
     atomic_fetch_add_explicit(&step->ticks, 1, memory_order_relaxed);
 }

@@ -24,6 +24,7 @@ struct step {
     struct tick_outputs outputs;
     struct received_state received; /* newest state taken from the mailbox */
     bool any_state;
+    int64_t newest_utime; /* lockstep: of the newest good one, us */
 
     struct duration_histogram compute, wakeup;
     int64_t overruns, slips, bad_states;

@@ -3,6 +3,7 @@
 #include "common/base/big_endian.h"
 #include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
+#include "daemon/control/refusals.h"
 #include "daemon/control/trace.h"
 #include "daemon/replay/replay_private.h"
 
@@ -171,8 +172,8 @@ static void run_tick(struct replay *replay)
         if (!tick_learn(replay->tick))
             break;
     tick_report(replay->tick, trace->utime, outputs);
-    outputs->trace.refused = trace->refused;
-    outputs->status.bad_inputs += trace->refused;
+    memcpy(outputs->trace.refused, trace->refused, sizeof trace->refused);
+    refusals_into_status(trace->refused, &outputs->status);
     replay->report.ticks++;
     replay->report.seconds += replay->used->period;
     if (replay->settings.sink)

@@ -193,6 +193,7 @@ static void forget_body(struct body_learner *learner)
         return;
     learner->found = learner->doubtful = false;
     learner->contest = contest_begin();
+    imle_forget(learner->meanwhile);
     kept_clear(&learner->waiting);
     for (int j = 0; j < learner->contexts->n; j++) {
         const struct kept *kept = &learner->contexts->context[j].kept;

@@ -73,7 +73,7 @@ bool read_surface(const std::string &file, const Eigen::Vector3d &scale, Surface
 
     if (fs::file_size(file, error) > most_bytes || error)
         return false;
-    /* As everybody does who reads a URDF: its axes are the file's, whatever the file calls up. */
+    /* As all programs that read a URDF do: the mesh keeps its axes, whatever its file calls up. */
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const aiScene *scene = importer.ReadFile(
         file, aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType);

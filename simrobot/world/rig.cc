@@ -42,12 +42,13 @@ public:
         if (arm.empty() || n > static_cast<size_t>(max_joints))
             faults_->push_back("robot: between 1 and " + std::to_string(max_joints) +
                                " joints are wanted");
-        if (find_link(config_.hand_link, &rig_->hand) && rig_->hand.segment == 0)
+        bool complete = n == arm.size() + head.size(); /* else nothing may move */
+        if (find_link(config_.hand_link, &rig_->hand) && rig_->hand.segment == 0 && complete)
             faults_->push_back(rig_->description.path + ": link " + config_.hand_link +
                                " does not move");
         find_collisions();
         find_eyes(head.size());
-        if (n == arm.size() + head.size())
+        if (complete)
             find_start();
     }
 

@@ -96,7 +96,9 @@ class HowTo(unittest.TestCase):
         self.assertEqual(len(rows), 1 + 140)
         result = json.loads((self.folder / "report.json").read_text())["results"][0]
         self.assertEqual(result["at"], 560)
-        learner = self.scratch.run(block("own-data.md", "reach-learner") + " & sleep 2; kill $!")
+        learner = self.scratch.run(
+            block("own-data.md", "reach-learner").strip() + " & sleep 3; kill $!"
+        )
         self.assertIn("ready", learner.stderr)
 
     def test_the_recipe_of_the_learners_page(self):

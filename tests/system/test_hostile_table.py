@@ -1,6 +1,7 @@
 """What bad configurations, models and messages get: each case is tried, and the table of
 docs/hostile-input.md must say exactly what it got. With --write, the table is written anew."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -19,7 +20,9 @@ BEGIN, END = "<!-- tried by tests/system/test_hostile_table.py -->\n", "<!-- end
 
 def complaint(*command, folder: Path) -> str:
     """The last line, with the file's folder left out, and the exit code."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, timeout=20
+    )
     line = (done.stderr.strip().splitlines() or ["nothing"])[-1]
     return f"{line.replace(f'{folder}/', '').replace(f'{ROOT}/', '')} ({done.returncode})"
 
@@ -52,6 +55,8 @@ def configurations(folder: Path):
     yield "no such file", complaint(*reachd("--config", folder / "none.yaml"), folder=folder)
     (folder / "robots").mkdir()
     yield "a folder", complaint(*reachd("--config", folder / "robots"), folder=folder)
+    os.mkfifo(folder / "pipe")
+    yield "a pipe", complaint(*reachd("--config", folder / "pipe"), folder=folder)
 
 
 def stored_model(folder: Path) -> None:
@@ -100,6 +105,9 @@ def models(folder: Path):
     shutil.copytree(kept, tried)
     yield "another learner", answer("--set", "learner.kind=lwpr")
     yield "other parameters", answer("--set", "learner.degree=2")
+    (tried / model).unlink()
+    os.mkfifo(tried / model)
+    yield "a pipe in the place of the model", answer()
 
 
 def state_of(robot: Robot, **fields):

@@ -2,6 +2,7 @@
 stops the arm, stores and ends."""
 
 import math
+import os
 import signal
 import subprocess
 import tempfile
@@ -96,6 +97,16 @@ class Signals(unittest.TestCase):
         self.hang_up(str(self.config))
         self.babble()
         self.assertAlmostEqual(self.fastest(), SLOW, delta=0.1)
+
+    def test_a_pipe_in_the_place_of_the_configuration(self):
+        """Nobody writes into it, and the daemon does not wait for that."""
+        self.config.unlink()
+        os.mkfifo(self.config)
+        self.hang_up("is not a regular file")
+        self.robot.run(0.2)
+        self.daemon.terminate()
+        self.robot.run(2, lambda: self.daemon.poll() is not None)
+        self.assertEqual(self.daemon.wait(2), 0, self.said())
 
     def test_terminate(self):
         self.babble()

@@ -100,7 +100,7 @@ def data_studies(data: Path | None) -> list[BodyStudy]:
         BodyStudy("body_robots", "reference data of Kobian-like robots, 1 px of noise",
                   (4, 3), partial(make_robot, where), robot_bars(), ("noise_share=0.1",),
                   files=EYES, wants_data=True, numbered=True),
-        BodyStudy("body_k1", "the same, 500 of hand and tool each, % of the range", (4, 3),
+        BodyStudy("body_k1", "the same, 500 of hand and 500 of tool, % of the range", (4, 3),
                   partial(make_robot, where), k1_bars(), ("noise_share=0.1",),
                   files=EYES, wants_data=True, numbered=True),
     ]  # fmt: skip

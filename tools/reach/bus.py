@@ -110,6 +110,15 @@ class Bus:
         self._request_seq += 1
         return _fill(reach.request_t(), kind, self._request_seq, fields)
 
+    def result_of(self, request: reach.request_t) -> int:
+        """What the newest status says of it; PENDING also where it was not looked at yet."""
+        status = self.status
+        if status is not None and status.model_request_seq == request.seq:
+            return status.model_result  # whatever else was asked since
+        if status is not None and status.request_seq == request.seq:
+            return status.request_result
+        return reach.status_t.PENDING
+
     def send(self, request: reach.request_t) -> None:
         self._lcm.publish("REACH_REQUEST", request.encode())
 

@@ -109,24 +109,19 @@ class Reach:
         request = self._bus.prepare(getattr(reach.request_t, kind), **fields)
         # Repeats change nothing: the daemon may just be starting.
         self._bus.send(request)
-        self._handle_until(lambda: self._answered(request.seq), lambda: self._send_again(request))
-        status = self._bus.status
-        if status.request_result != status.ACCEPTED:
-            raise RefusedError(f"reachd: {_RESULTS.get(status.request_result, 'unknown result')}")
-        return status
+        self._handle_until(
+            lambda: self._bus.result_of(request) != reach.status_t.PENDING,
+            lambda: self._send_again(request),
+        )
+        result = self._bus.result_of(request)
+        if result != reach.status_t.ACCEPTED:
+            raise RefusedError(f"reachd: {_RESULTS.get(result, 'unknown result')}")
+        return self._bus.status
 
     def _send_again(self, request) -> None:
         # Numbers are of the clock: a greater one is somebody's later wish, not to be undone.
         if self._bus.status is None or self._bus.status.request_seq <= request.seq:
             self._bus.send(request)
-
-    def _answered(self, seq: int) -> bool:
-        status = self._bus.status
-        return (
-            status is not None
-            and status.request_seq == seq
-            and status.request_result != status.PENDING
-        )
 
     def _handle_until(self, done, send=lambda: None) -> None:
         """Until done(), sending now and then."""

@@ -39,10 +39,8 @@ class HeldClock:
             # Sent before each tick until it was looked at; the daemon ignores repeats.
             self._bus.send(request)
             self.advance(PERIOD_US * 1e-6)
-            status = self._bus.status
-            looked_at = status.request_seq == request.seq
-            if looked_at and status.request_result != reach.status_t.PENDING:
-                return status.request_result
+            if (result := self._bus.result_of(request)) != reach.status_t.PENDING:
+                return result
 
 
 class RealClock:
@@ -66,12 +64,8 @@ class RealClock:
 
     def ask_daemon(self, request: reach.request_t) -> int:
         self._bus.wait(
-            lambda: (
-                self._bus.status is not None
-                and self._bus.status.request_seq == request.seq
-                and self._bus.status.request_result != reach.status_t.PENDING
-            ),
+            lambda: self._bus.result_of(request) != reach.status_t.PENDING,
             "reachd",
             lambda: self._bus.send(request),
         )
-        return self._bus.status.request_result
+        return self._bus.result_of(request)

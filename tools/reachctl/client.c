@@ -117,10 +117,18 @@ static int64_t fresh_seq(void)
     return bus_utime();
 }
 
+/* What became of the request; what is done about the model is told however much is asked after it.
+ */
+static int8_t result_of(const reach_status_t *status, const reach_request_t *request)
+{
+    if (status->model_request_seq == request->seq)
+        return status->model_result;
+    return status->request_seq == request->seq ? status->request_result : REACH_STATUS_T_PENDING;
+}
+
 static bool answers(const reach_status_t *status, const reach_request_t *request)
 {
-    return status && status->request_seq == request->seq &&
-           status->request_result != REACH_STATUS_T_PENDING;
+    return status && result_of(status, request) != REACH_STATUS_T_PENDING;
 }
 
 /* Numbers are of the clock: a greater one is somebody's later wish, which ours must not undo. */
@@ -148,9 +156,9 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
         }
         status = client_status(client, (double)((due < deadline ? due : deadline) - now) * 1e-6);
     }
-    if (status->request_result == REACH_STATUS_T_ACCEPTED)
+    if (result_of(status, request) == REACH_STATUS_T_ACCEPTED)
         return 0;
-    snprintf(error, error_size, "reachd: %s", status_result_word(status->request_result));
+    snprintf(error, error_size, "reachd: %s", status_result_word(result_of(status, request)));
     return -1;
 }
 

@@ -7,6 +7,7 @@
 #include <math.h>
 
 static struct config config;
+static struct state_fault fault;
 
 static reach_robot_state_t good_state(void)
 {
@@ -25,24 +26,24 @@ START_TEST(a_bad_state_is_refused)
 
     config = fixture_config(NULL, 0);
     state = good_state();
-    ck_assert(inputs_state_ok(&config, &state));
+    ck_assert(inputs_state_ok(&config, &state, &fault));
     for (int i = 0; i < 6; i++)
         for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
             state = good_state();
             state.position[i] = bad[k];
-            ck_assert(!inputs_state_ok(&config, &state));
+            ck_assert(!inputs_state_ok(&config, &state, &fault));
             state = good_state();
             state.velocity[i] = k == 4 ? 200 : bad[k];
-            ck_assert(!inputs_state_ok(&config, &state));
+            ck_assert(!inputs_state_ok(&config, &state, &fault));
         }
     for (int n = -1; n <= 17; n++) {
         state = good_state();
         state.n_joints = n;
-        ck_assert_int_eq(inputs_state_ok(&config, &state), n == 6);
+        ck_assert_int_eq(inputs_state_ok(&config, &state, &fault), n == 6);
     }
     state = good_state();
     state.utime = 0;
-    ck_assert(!inputs_state_ok(&config, &state));
+    ck_assert(!inputs_state_ok(&config, &state, &fault));
 }
 END_TEST
 

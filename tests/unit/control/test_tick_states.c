@@ -139,6 +139,86 @@ START_TEST(nonsense_moves_nothing_beyond_its_limits)
 }
 END_TEST
 
+/* Counted where it belongs, with what was wrong. */
+START_TEST(a_refusal_names_joint_value_and_range)
+{
+    const reach_status_t *status = &world.outputs.status;
+    struct joint_limits limits;
+
+    begin();
+    world_tick(true);
+    limits = config_joint_limits(&world.config, 2);
+    world.inputs.has_state = true;
+    world.inputs.state = fake_robot_state(&world.robot);
+    world.inputs.state.position[2] = 2.5;
+    world_decide();
+    ck_assert_int_eq(status->refused[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_VALUE], 1);
+    ck_assert_int_eq(status->bad_inputs, 1);
+    ck_assert_int_eq(status->refused_state, world.inputs.state.seq);
+    ck_assert_int_eq(status->refused_joint, 3);
+    ck_assert_double_eq(status->refused_value, 2.5);
+    ck_assert_double_eq_tol(status->refused_min, limits.min - 0.35, 1e-12);
+    ck_assert_double_eq_tol(status->refused_max, limits.max + 0.35, 1e-12);
+    world.inputs.state.n_joints = 5;
+    world_decide();
+    ck_assert_int_eq(status->refused_joint, 0);
+    world_end();
+}
+END_TEST
+
+/* The sender waits: it gets an answer at once, and the arm holds. */
+START_TEST(in_lockstep_a_refused_state_is_answered)
+{
+    begin();
+    for (int known = 0; known < 2; known++) {
+        world.inputs.has_state = true;
+        world.inputs.state = fake_robot_state(&world.robot);
+        world.inputs.state.lockstep = 1;
+        world.inputs.state.position[0] = NAN;
+        world_decide();
+        ck_assert(world.outputs.has_command);
+        ck_assert_int_eq(world.outputs.command.state_seq, world.inputs.state.seq);
+        for (int i = 0; i < 6; i++)
+            ck_assert_double_eq(world.outputs.command.velocity[i], 0);
+        world_tick(true);
+        ck_assert_int_eq(world.outputs.status.state, REACH_STATUS_T_IDLE);
+    }
+    world_prepare((reach_request_t){.kind = REACH_REQUEST_T_BABBLE, .count = 3, .seed = 5});
+    for (int i = 0; i < 21; i++)
+        world_tick(true);
+    world.inputs.has_state = true;
+    world.inputs.state = fake_robot_state(&world.robot);
+    world.inputs.state.lockstep = 1;
+    world.inputs.state.n_joints = 1;
+    world_decide();
+    ck_assert_int_eq(world.outputs.status.state, REACH_STATUS_T_HOLD);
+    world_end();
+}
+END_TEST
+
+START_TEST(what_is_of_another_time_is_counted)
+{
+    const reach_status_t *status = &world.outputs.status;
+
+    begin();
+    world.robot.now += 100 * (int64_t)1000000;
+    world_tick(true);
+    world_tick(true);
+    world.inputs.n_observations = 1;
+    for (int i = 0; i < 2; i++) {
+        world.inputs.observation[0] = (struct observation){
+            .utime = world.robot.now + (i ? 10 : -10) * (int64_t)1000000, .seq = 1, .seen = 1};
+        world_tick(true);
+    }
+    ck_assert_int_eq(status->refused[REACH_STATUS_T_CHANNEL_SENSE][REACH_STATUS_T_TIME], 2);
+    world.inputs.n_observations = 0;
+    world_decide(); /* the same state once more */
+    ck_assert_int_eq(status->refused[REACH_STATUS_T_CHANNEL_STATE][REACH_STATUS_T_TIME], 1);
+    ck_assert_int_eq(status->bad_inputs, 3);
+    world_end();
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -147,6 +227,9 @@ int main(void)
         a_state_grows_stale_under_bad_ones,
         a_state_that_was_overtaken_is_not_taken,
         nonsense_moves_nothing_beyond_its_limits,
+        a_refusal_names_joint_value_and_range,
+        in_lockstep_a_refused_state_is_answered,
+        what_is_of_another_time_is_counted,
     };
 
     return SUITE_RUN("tick_states", tests);

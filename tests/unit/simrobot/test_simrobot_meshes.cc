@@ -89,7 +89,7 @@ std::string block_obj()
     return text;
 }
 
-/* In centimetres, and said to have y up, which nobody who reads a URDF obeys. */
+/* In centimetres, and said to have z up: assimp by itself would turn it, so that y is up. */
 std::string block_dae()
 {
     std::string points, indices;
@@ -99,7 +99,7 @@ std::string block_dae()
         for (int k = 0; k < 3; k++)
             indices += std::to_string(face[k]) + " ";
     return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
-           "version='1.4.1'><asset><unit meter='0.01'/><up_axis>Y_UP</up_axis></asset>"
+           "version='1.4.1'><asset><unit meter='0.01'/><up_axis>Z_UP</up_axis></asset>"
            "<library_effects><effect id='e'><profile_COMMON><technique sid='c'><lambert><diffuse>"
            "<color>0.25 0.5 0.75 "
            "1</color></diffuse></lambert></technique></profile_COMMON></effect>"

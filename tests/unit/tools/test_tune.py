@@ -65,12 +65,14 @@ class Tune(unittest.TestCase):
         self.assertEqual(rows_that_fit(400, 300, 60), 300)
 
     def test_a_body_that_makes_solutions_is_left_out(self):
-        search = self.search("one", 1)
+        """Of the rows of the search, or of more rows."""
+        search, more = self.search("one", 1), self.search("more", 1)
         (best,) = search.best()
-        for factor, taken in ((1.05, 2), (1.5, 1)):
-            tried = replace(best, solutions=factor * best.solutions)
-            with mock.patch.object(search, "try_out", return_value=tried):
-                try_body(search, 10, Silent())
+        for factors, taken in (((1.05, 1.05), 2), ((1.5, 1), 1), ((1, 1.5), 1)):
+            for part, factor in zip((search, more), factors, strict=True):
+                tried = replace(best, solutions=factor * best.solutions)
+                part.try_out = mock.Mock(return_value=tried)
+            try_body(search, more, 10, Silent())
             self.assertEqual(len(search.tried), taken)
             del search.tried[1:]
 

@@ -22,10 +22,10 @@ PREPARE_SECONDS = 4.0  # robot time before the first target, about; for the time
 # Sizes: samples with hand, tool, hand; tests each time; seconds for each target of K2 and K3.
 _FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2.0,
          "star_seconds": 4.0}  # fmt: skip
-_QUICK = {"hand": 30, "tool": 10, "again": 5, "tests": 5, "turn_seconds": 1.15,
-          "star_seconds": 2.2}  # fmt: skip
-_QUICK_RIVAL = {"hand": 8, "tool": 8, "again": 2, "tests": 2, "turn_seconds": 1.15,
-                "star_seconds": 0.8}  # fmt: skip
+_QUICK = {"hand": 30, "tool": 10, "again": 5, "tests": 4, "turn_seconds": 1.15,
+          "star_seconds": 2.0}  # fmt: skip
+_QUICK_RIVAL = {"hand": 6, "tool": 6, "again": 1, "tests": 2, "turn_seconds": 1.15,
+                "star_seconds": 0.6}  # fmt: skip
 
 
 def settings(quick: bool, learner: str) -> dict:

@@ -83,7 +83,8 @@ def tune(options: argparse.Namespace, parts: Parts, look: Look, progress: Progre
         raise EvaluationError("no trial came to an end")
     search.compare_on_all(thinned, all_rows, progress)
     if look.may_be_a_body and not options.no_body:
-        search.try_body(all_rows, _BODY_SHARE * seconds, progress)
+        more = search.make_search(work / "more", parts.both, parts.choose, look)
+        search.try_body(all_rows, more, _BODY_SHARE * seconds, progress)
     return all_rows.best()[0].settings, [tried.score for tried in thinned.tried]
 
 

@@ -119,18 +119,22 @@ def look_for(search: Search, budget: float, most_trials: int, progress: Progress
     progress.finish("search", f"{len(search.tried)} trials of {search.rows} rows each")
 
 
-def try_body(search: Search, seconds: float, progress: Progress) -> None:
+def try_body(search: Search, more: Search, seconds: float, progress: Progress) -> None:
     """The best parameters with experts on a body, if it is found in time. One that makes more
-    solutions of the same rows has taken errors of the body for tools."""
+    solutions, of the same rows or of `more`, has taken errors of the body for tools."""
     (best,) = search.best()
     progress.update("body", 0.0, "looking for a chain of joints")
     try:
-        tried = search.try_out(best.settings.as_body(), "body", timeout=seconds)
+        tried, again = (
+            part.try_out(best.settings.as_body(), "body", timeout=seconds / 4)  # each way
+            for part in (search, more)
+        )
     except EvaluationError as error:
         progress.finish("body", f"left out: {error}")
         return
-    if tried.solutions > _MORE_SOLUTIONS * best.solutions:
-        progress.finish("body", f"left out: {tried.solutions:.1f} solutions, not "
+    solutions = max(tried.solutions, again.solutions)
+    if solutions > _MORE_SOLUTIONS * best.solutions:
+        progress.finish("body", f"left out: {solutions:.1f} solutions, not "
                         f"{best.solutions:.1f} as before")  # fmt: skip
         return
     search.take(tried)

@@ -1,5 +1,6 @@
 #include "tools/reachctl/doctor/census.h"
 
+#include "common/bus/refusals_text.h"
 #include "common/program/printable.h"
 
 #include <arpa/inet.h>
@@ -76,6 +77,18 @@ static void take_clock(struct census *census, const struct packet *packet, int64
     census->clock_ahead = (double)(state.utime - now) * 1e-6;
 }
 
+static void take_status(struct census *census, const struct packet *packet)
+{
+    reach_status_t status;
+
+    if (reach_status_t_decode(packet->payload, 0, (int)packet->payload_size, &status) < 0)
+        return;
+    if (!census->has_status)
+        census->first_status = status;
+    census->has_status = true;
+    census->status = status;
+}
+
 void census_take(struct census *census, const struct packet *packet, const struct sender *from,
                  int64_t now)
 {
@@ -90,6 +103,8 @@ void census_take(struct census *census, const struct packet *packet, const struc
         take_hello(census, packet);
     else if (strcmp(packet->channel, "ROBOT_STATE") == 0)
         take_clock(census, packet, now);
+    else if (strcmp(packet->channel, "REACH_STATUS") == 0)
+        take_status(census, packet);
 }
 
 static void name_senders(const struct census *census, int index, char *text, size_t size)
@@ -148,6 +163,23 @@ static void report_role(const struct census *census, int role, const char *ours,
         findings_add(findings, VERDICT_SKIPPED, "version", "%s does not run", roles[role]);
 }
 
+/* What reachd refuses at present has to be mended; what it once refused is told. */
+static void report_refusals(const struct census *census, struct findings *findings)
+{
+    char now[200], all[200];
+
+    if (!census->has_status)
+        return;
+    refusals_text(&census->status, &census->first_status, now, sizeof now);
+    refusals_text(&census->status, NULL, all, sizeof all);
+    if (now[0]) {
+        findings_add(findings, VERDICT_FINDING, "refused messages", "just now: %s", now);
+        findings_remedy(findings, "journalctl -u reachd names them; find who sends them");
+    } else
+        findings_add(findings, VERDICT_OK, "refused messages", "%s%s",
+                     all[0] ? "none now; since reachd's start: " : "none", all);
+}
+
 void census_report(const struct census *census, const char *ours, struct findings *findings)
 {
     int before = findings->n;
@@ -159,6 +191,7 @@ void census_report(const struct census *census, const char *ours, struct finding
     for (int role = 0; role < N_ROLES; role++)
         if (roles[role])
             report_role(census, role, ours, findings);
+    report_refusals(census, findings);
     if (!census->has_clock)
         return;
     if (fabs(census->clock_ahead) <= clock_tolerance) {

@@ -7,6 +7,7 @@
 
 #include <netinet/in.h>
 #include <reach_hello_t.h>
+#include <reach_status_t.h>
 
 enum { CENSUS_CHANNELS = 12, CENSUS_SENDERS = 4, CENSUS_ANSWERS = 8 };
 
@@ -26,7 +27,9 @@ struct census {
     int n_answers;
     reach_hello_t answers[CENSUS_ANSWERS];
     bool has_clock;
-    double clock_ahead; /* of the robot's clock over ours, s; in real time */
+    bool has_status;
+    reach_status_t first_status, status; /* of reachd: the first and the newest heard */
+    double clock_ahead;                  /* of the robot's clock over ours, s; in real time */
 };
 
 /* Takes in a packet that came from `from` at `now` (us since the epoch). */

@@ -1,8 +1,8 @@
+#include "common/bus/multicast.h"
 #include "common/bus/open.h"
 #include "common/program/version.h"
 #include "tools/reachctl/doctor/census.h"
 #include "tools/reachctl/doctor/doctor.h"
-#include "common/bus/multicast.h"
 
 #include <poll.h>
 #include <sys/random.h>

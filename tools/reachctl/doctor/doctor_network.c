@@ -1,5 +1,5 @@
-#include "tools/reachctl/doctor/doctor.h"
 #include "common/bus/multicast.h"
+#include "tools/reachctl/doctor/doctor.h"
 
 #include <net/if.h>
 #include <string.h>

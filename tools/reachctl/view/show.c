@@ -1,5 +1,6 @@
 #include "tools/reachctl/view/show.h"
 
+#include "common/bus/refusals_text.h"
 #include "common/bus/status_words.h"
 
 #include <math.h>
@@ -53,7 +54,7 @@ const char *show_error_unit(const reach_status_t *status)
 
 void show_text(const reach_status_t *status, FILE *out)
 {
-    char body[128];
+    char body[128], refused[512];
 
     show_body(status, body, sizeof body);
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
@@ -80,6 +81,9 @@ void show_text(const reach_status_t *status, FILE *out)
             "trouble    %lld overruns, %lld slips, %lld bad inputs, %lld gated, %lld dropped\n",
             (long long)status->overruns, (long long)status->slips, (long long)status->bad_inputs,
             (long long)status->gated, (long long)status->dropped_samples);
+    refusals_text(status, NULL, refused, sizeof refused);
+    if (refused[0])
+        fprintf(out, "refused    %s\n", refused);
     fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
             (long long)status->request_seq, result_word(status));
 }
@@ -99,6 +103,7 @@ static const struct field {
     FIELD(seq, FIELD_INT64),
     FIELD(state_seq, FIELD_INT64),
     FIELD(request_seq, FIELD_INT64),
+    FIELD(model_request_seq, FIELD_INT64),
     FIELD(progress, FIELD_INT32),
     FIELD(progress_total, FIELD_INT32),
     FIELD(skipped, FIELD_INT32),
@@ -134,6 +139,11 @@ static const struct field {
     FIELD(queue, FIELD_INT32),
     FIELD(dropped_samples, FIELD_INT64),
     FIELD(bad_inputs, FIELD_INT64),
+    FIELD(refused_state, FIELD_INT64),
+    FIELD(refused_joint, FIELD_INT32),
+    FIELD(refused_value, FIELD_DOUBLE),
+    FIELD(refused_min, FIELD_DOUBLE),
+    FIELD(refused_max, FIELD_DOUBLE),
     FIELD(gated, FIELD_INT64),
     FIELD(staleness, FIELD_DOUBLE),
 #undef FIELD
