@@ -45,9 +45,17 @@ static void remember(struct contexts *contexts, struct context *context)
     change_clear(&anchor->astray, contexts->design.n_joints);
 }
 
+static bool any_remembered(const struct contexts *contexts)
+{
+    for (int j = 0; j < contexts->n; j++)
+        if (contexts->context[j].anchor.known)
+            return true;
+    return false;
+}
+
 static void count_streak(struct contexts *contexts, bool understood)
 {
-    if (!understood)
+    if (!understood && any_remembered(contexts))
         contexts->streak_left = memory_astray;
     if (contexts->streak_left <= 0.0)
         return;
