@@ -12,7 +12,8 @@
 static const int most_draws = 20;  /* for a posture that promises something */
 static const double daring = 0.05; /* chance of a posture that promises nothing */
 
-/* Without a body it begins with each joint alone (tour.h). */
+/* Without a body it begins with each joint alone (tour.h), whose samples do not count: one joint's
+ * motion has many, and few babbled ones would end before the others had moved. */
 struct babbling {
     struct babble babble;
     struct tour tour;
@@ -135,7 +136,7 @@ static bool babble_step(struct behaviour *behaviour, const struct senses *senses
     if (!babbling->tours)
         babble_continue(&babbling->babble, &behaviour->progress, senses, wants);
     else if (senses->sight->new_frame)
-        gather_sample(&behaviour->progress, senses, wants);
+        control_gather(senses, wants, sight_pair_frames(senses->config));
     return true;
 }
 
