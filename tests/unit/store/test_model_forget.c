@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_GIVEN = 40 };
+enum { MOST_GIVEN = 100 };
 
 static char directory[40];
 static struct model_store_settings settings;
@@ -75,7 +75,8 @@ START_TEST(the_search_begins_anew)
     uint64_t given[MOST_GIVEN] = {ticks_until(&bench, true)};
     int n = 1;
 
-    for (int i = 0; i < 60; i++) { /* so many that more would have to come before the next search */
+    /* So many, and a search so lately, that several more would have to come before the next one. */
+    for (int i = 0; i < 250 || given[n - 1] + 1 < model_samples(bench.learner); i++) {
         uint64_t again = body_bench_tick(&bench);
         ck_assert_int_lt(n, MOST_GIVEN - 1);
         if (again)
