@@ -53,20 +53,22 @@ CALLS_BY_POINTER = {
         "learner_predict": {"predict"},
         "learner_get_statistics": {"experts"},
         "learner_body": {"body"},
+        "learner_get_body_change": {"body_change"},
+        "body_try": {"predict"},
         "learner_kept_samples": {"kept_samples"},
     },
     "behaviour_ops": {"tick_decide": {"step"}, "tick_take_requests": {"accepts", "start"}},
     "model_port_ops": {
         "tick_learn": {"note", "learned"},
         "tick_awaits_store": {"works", "full"},
-        "tick_take_requests": {"poll", "begin_save", "begin_load"},
+        "tick_take_requests": {"poll", "begin_save", "begin_load", "begin_forgetting", "tell_body"},
         "tick_report": {"report", "moment"},
     },
 }
 # Whoever else calls by pointer within the learner does so through these.
 LEARNER_TABLES = ("kernels", "feature_map_ops")
 LEARNER_SOURCE = re.compile(
-    r"learner/(body|imle|lwpr|features)/|imle|whitener|feature_map|lwpr|contexts_|tied_"
+    r"learner/(body|imle|lwpr|features)/|imle|whitener|feature_map|lwpr|contexts_|follow_|tied_"
 )
 # Eigen takes scratch matrices from the stack, at most 16 x 16 doubles each here, and would take
 # larger ones from the heap; that it never does is seen by tests/system/test_loop_promises.py.
