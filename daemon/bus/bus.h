@@ -7,8 +7,8 @@
 #include "common/base/mailbox.h"
 #include "daemon/bus/incoming.h"
 #include "daemon/config/config.h"
-#include "daemon/control/refusals.h"
 #include "daemon/control/senses/observation.h"
+#include "daemon/control/senses/refusals.h"
 
 #include <lcm/lcm.h>
 #include <reach_body_request_t.h>

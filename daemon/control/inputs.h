@@ -5,8 +5,8 @@
 #define REACH_DAEMON_CONTROL_INPUTS_H
 
 #include "daemon/config/config.h"
-#include "daemon/control/refusals.h"
 #include "daemon/control/senses/observation.h"
+#include "daemon/control/senses/refusals.h"
 
 #include <reach_request_t.h>
 #include <reach_robot_state_t.h>

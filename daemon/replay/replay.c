@@ -3,7 +3,7 @@
 #include "common/base/big_endian.h"
 #include "common/base/checksum.h"
 #include "daemon/bus/incoming.h"
-#include "daemon/control/refusals.h"
+#include "daemon/control/senses/refusals.h"
 #include "daemon/control/trace.h"
 #include "daemon/replay/replay_private.h"
 

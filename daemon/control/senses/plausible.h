@@ -6,7 +6,7 @@
 
 #include "daemon/config/config.h"
 #include "daemon/config/sizes.h"
-#include "daemon/control/refusals.h"
+#include "daemon/control/senses/refusals.h"
 
 #include <reach_robot_state_t.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* Messages that were refused, counted by channel and reason; whoever refuses one says so here.
  * Plain data. Channels and reasons are constants of status_t. */
-#ifndef REACH_DAEMON_CONTROL_REFUSALS_H
-#define REACH_DAEMON_CONTROL_REFUSALS_H
+#ifndef REACH_DAEMON_CONTROL_SENSES_REFUSALS_H
+#define REACH_DAEMON_CONTROL_SENSES_REFUSALS_H
 
 #include <reach_status_t.h>
 #include <stdint.h>
