@@ -15,9 +15,9 @@ static const struct argument_row rows[] = {
     ARGUMENT_ON("check-model", 0, struct arguments, check_model,
                 "print the samples and the hash of the model in model.directory, or what is wrong "
                 "with it, and change nothing"),
-    ARGUMENT_TEXT("replay", 0, "LOG", struct arguments, replay,
+    ARGUMENT_LIST("replay", 0, "LOG ...", struct arguments, replay, n_replay, PIECES_MOST,
                   "make the decisions of a recorded run again, which LOG has of lcm-logger or the "
-                  "like; needs no --config"),
+                  "like, in one piece or several; - is standard input; needs no --config"),
     ARGUMENT_ON("replay-clock", 0, struct arguments, replay_clock,
                 "the same from lcm-logplayer on the bus; answers on channels named REPLAY_..."),
     ARGUMENT_ON("verify", 0, struct arguments, verify,
@@ -30,7 +30,7 @@ static const struct argument_row rows[] = {
 static const struct command_line line = {
     .program = "reachd",
     .usage = "reachd --config FILE [options]\n"
-             "       reachd --replay LOG [--verify] [options]",
+             "       reachd --replay LOG ... [--verify] [options]",
     .about = "Learns how the robot's arm moves, with whatever tool it holds, and reaches with it.",
     .rows = rows,
     .exit_status = "0 ended as asked, 1 could not start or run, or a replay differs",
@@ -40,9 +40,9 @@ static const struct command_line line = {
 /* What goes together. */
 static const char *contradiction(const struct arguments *arguments)
 {
-    bool replays = arguments->replay || arguments->replay_clock;
+    bool replays = arguments->n_replay > 0 || arguments->replay_clock;
 
-    if (arguments->replay && arguments->replay_clock)
+    if (arguments->n_replay > 0 && arguments->replay_clock)
         return "--replay reads a log, --replay-clock the bus: one of them is wanted";
     if (!replays && (arguments->verify || arguments->n_models > 0))
         return "--verify and --model belong to --replay or --replay-clock";

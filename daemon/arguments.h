@@ -3,6 +3,7 @@
 #define REACH_ARGUMENTS_H
 
 #include "common/options/command_line.h"
+#include "daemon/replay/pieces.h"
 
 #include <stdbool.h>
 
@@ -13,8 +14,9 @@ struct arguments {
     const char *url;
     bool lockstep, no_rt, check_model, verbose;
 
-    const char *replay; /* a log; NULL = none */
-    bool replay_clock;  /* what is played on the bus */
+    const char *replay[PIECES_MOST]; /* a log, or pieces of one */
+    int n_replay;                    /* 0 = none */
+    bool replay_clock;               /* what is played on the bus */
     bool verify;
     const char *models[MAX_MODELS];
     int n_models;

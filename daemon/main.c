@@ -212,8 +212,9 @@ static int replay(struct reachd *reachd, char *error, size_t error_size)
         .verify = arguments->verify,
     };
 
-    if (arguments->replay)
-        return player_play_log(arguments->replay, &settings, error, error_size);
+    if (arguments->n_replay > 0)
+        return player_play_log(arguments->replay, arguments->n_replay, &settings, error,
+                               error_size);
     housekeeping_take_signals();
     if (claim_bus(reachd, error, error_size))
         return -1;
@@ -233,7 +234,7 @@ static int load_config(struct reachd *reachd, char *error, size_t error_size)
 
 static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
-    if (reachd->arguments.replay || reachd->arguments.replay_clock)
+    if (reachd->arguments.n_replay > 0 || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
     if (model_of_store_check(&reachd->config, error, error_size))
         return -1;

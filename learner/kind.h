@@ -35,6 +35,8 @@ struct learner_ops {
     /* NULL for learners that stand on no body; see learner_give_body() and what follows it. */
     int (*give_body)(void *self, const struct body *body, char *err, size_t err_size);
     const struct body *(*body)(const void *self);
+    int (*not_rigid)(void *self, double *share);
+    struct learner_body_change (*body_change)(const void *self);
     struct learner_samples (*kept_samples)(const void *self, int context);
     /* The wrapper has checked the number of experts, the size and the checksum. 0, or -1 and a line
      * in err with the state as it was. */

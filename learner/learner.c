@@ -166,6 +166,18 @@ struct learner_samples learner_kept_samples(const struct learner *learner, int c
     return learner->ops->kept_samples ? learner->ops->kept_samples(learner->self, context) : none;
 }
 
+int learner_not_rigid(struct learner *learner, double share[LEARNER_MAX_OUTPUTS])
+{
+    return learner->ops->not_rigid ? learner->ops->not_rigid(learner->self, share) : -1;
+}
+
+struct learner_body_change learner_get_body_change(const struct learner *learner)
+{
+    struct learner_body_change none = {.cause = -1};
+
+    return learner->ops->body_change ? learner->ops->body_change(learner->self) : none;
+}
+
 static uint64_t checksum(const struct envelope *envelope, const unsigned char *state, size_t n)
 {
     uint64_t hash = learner_hash(LEARNER_HASH_START, state, n);

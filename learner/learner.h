@@ -228,12 +228,30 @@ struct body;
 /* From now on experts stand on this body (LEARNER_BODY alone): each is learned anew from the
  * samples that it has kept, the first body's from those that came before it. Takes milliseconds, so
  * it is not for a control loop. The body is copied. One without joints takes the body away: what
- * was kept teaches polynomials again, and waits for another body. Returns 0, or -1 with one line in err and the
- * learner as it was. */
+ * was kept teaches polynomials again, and waits for another body. Returns 0, or -1 with one line in
+ * err and the learner as it was. */
 int learner_give_body(struct learner *learner, const struct body *body, char *err, size_t err_size);
 
 /* The body that it stands on; NULL when there is none. */
 const struct body *learner_body(const struct learner *learner);
+
+/* What a LEARNER_BODY has noticed of changes of its body, and followed without a new search: a
+ * joint's zero that moved, or the place or direction from which all is seen; and a tool that slips.
+ */
+struct learner_body_change {
+    uint64_t changes; /* of the body, followed since it was found */
+    int cause;    /* of the newest: an input, counted from 0; n_inputs: the view; -1: none yet */
+    double by[3]; /* by how much since another cause was: of a joint rad (by[0]); of the view m, or
+                     of eyes the optical axis' two tilts (rad) and px */
+    double slip;  /* how far the tip that slips most is from where it was; m, or the eyes' own
+                     unit; 0 when none does */
+};
+struct learner_body_change learner_get_body_change(const struct learner *learner);
+
+/* How much of the motion with the tool most in use no rigid chain explains, rms over the samples
+ * kept of it, beyond the noise told: each output in its own unit. 0, or -1 where there is no body,
+ * or nothing was kept. It looks at 512 samples: not for a control loop. */
+int learner_not_rigid(struct learner *learner, double share[LEARNER_MAX_OUTPUTS]);
 
 /* Samples that a LEARNER_BODY keeps to find a body from, spread over the joints: of context 0, 1,
  * ... on a body, or all of them (context 0) before there is one. n is 0 for contexts that are not,

@@ -11,11 +11,13 @@ namespace sim
 
 /* Texts are argv's; nullptr where nothing was given. */
 struct CommandLine {
-    const char *config = nullptr, *url = nullptr, *truth_url = nullptr, *snapshot = nullptr;
+    const char *config = nullptr, *url = nullptr, *truth_url = nullptr, *snapshot = nullptr,
+               *package_path = nullptr;
     const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
     int n_overrides = 0;
     bool lockstep = true;
-    bool hold = false, send_truth = true, eyes = true, renderer = false, verbose = false;
+    bool check = false, hold = false, send_truth = true, eyes = true, renderer = false,
+         verbose = false;
     int64_t seed = 1;
     int64_t bench_eyes = 0;
     int64_t tool = 0; /* in the hand at the start */

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -13,6 +14,8 @@
 #include "simrobot/eyes/tasks.h"
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
+#include "simrobot/setup/meshes.h"
+#include "simrobot/world/strength.h"
 
 namespace
 {
@@ -105,6 +108,15 @@ bool start(const sim::CommandLine &line, std::string *error)
     if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
         !sim::rig_load(config, &rig, error))
         return false;
+    if (rig.has_eyes || line.snapshot || line.check)
+        sim::meshes_load(line.package_path ? line.package_path : config.package_path,
+                         &rig.description, &rig.notes);
+    for (const std::string &note : sim::strength_notes(rig, config.ball_mass))
+        rig.notes.push_back(note);
+    for (const std::string &note : rig.notes)
+        log_warning("%s", note.c_str());
+    if (line.check)
+        return true;
     sim::Simulation simulation(config, rig, seed);
     if (!simulation.set_tool(static_cast<int>(line.tool))) {
         *error = std::string(line.config) + ": there is no tool " + std::to_string(line.tool);
@@ -146,6 +158,8 @@ int main(int argc, char **argv)
         return name_renderer();
     if (start(line, &error))
         return 0;
-    log_error("%s", error.c_str());
+    std::istringstream lines(error);
+    for (std::string text; std::getline(lines, text);)
+        log_error("%s", text.c_str());
     return 1;
 }

@@ -88,6 +88,47 @@ static int set_text(char *field, const char *text, char *error, size_t error_siz
     return 0;
 }
 
+static int add_name(char *field, const char *name, size_t length, char *error, size_t error_size)
+{
+    size_t used = strlen(field);
+
+    if (length == 0 || memchr(name, '\n', length)) {
+        snprintf(error, error_size, "a name is empty or has a line break in it");
+        return -1;
+    }
+    if (used + length + 2 > OPTION_MAX_NAMES) {
+        snprintf(error, error_size, "names are longer than %d characters", OPTION_MAX_NAMES - 1);
+        return -1;
+    }
+    if (used)
+        field[used++] = '\n';
+    memcpy(field + used, name, length);
+    field[used + length] = '\0';
+    return 0;
+}
+
+/* The names of a list as they are, or the words of a text. */
+static int set_names(char *field, const char *const *items, int n_items, bool is_list, char *error,
+                     size_t error_size)
+{
+    const char *blanks = " \t\n";
+
+    field[0] = '\0';
+    if (is_list) {
+        for (int i = 0; i < n_items; i++)
+            if (add_name(field, items[i], strlen(items[i]), error, error_size))
+                return -1;
+        return 0;
+    }
+    for (const char *word = items[0]; *(word += strspn(word, blanks));) {
+        size_t length = strcspn(word, blanks);
+        if (add_name(field, word, length, error, error_size))
+            return -1;
+        word += length;
+    }
+    return 0;
+}
+
 static int set_choice(const struct option_row *row, int *field, const char *text, char *error,
                       size_t error_size)
 {
@@ -131,7 +172,8 @@ static int set_option(const struct option_row *row, void *target, const char *co
 {
     char *field = (char *)target + row->offset;
 
-    if (row->type != OPTION_SPREAD && is_list != (row->type == OPTION_LIST)) {
+    if (row->type != OPTION_SPREAD && row->type != OPTION_NAMES &&
+        is_list != (row->type == OPTION_LIST)) {
         snprintf(error, error_size,
                  is_list ? "a single value is wanted, not a list" : "a list [a, b, ...] is wanted");
         return -1;
@@ -152,6 +194,8 @@ static int set_option(const struct option_row *row, void *target, const char *co
                         error_size);
     case OPTION_TEXT:
         return set_text(field, items[0], error, error_size);
+    case OPTION_NAMES:
+        return set_names(field, items, n_items, is_list, error, error_size);
     case OPTION_CHOICE:
         return set_choice(row, (int *)(void *)field, items[0], error, error_size);
     }
@@ -187,14 +231,22 @@ static int apply_to_table(void *user, const char *name, const char *const *items
     return set_option(row, loading->target, items, n_items, is_list, error, error_size);
 }
 
+/* "1,2,3" for a list: on a command line brackets are for the shell. */
+static bool is_bare_list(const struct option_row *row, const char *value)
+{
+    return row && (row->type == OPTION_LIST || row->type == OPTION_SPREAD) && strchr(value, ',') &&
+           !strchr(value, '[');
+}
+
 /* Reads "name: value" as YAML, so that defaults and overrides follow the file's own syntax. */
 static int apply_text(struct loading *loading, const char *origin, const char *name,
                       const char *value, char *error, size_t error_size)
 {
-    char text[2 * OPTION_MAX_TEXT + 64];
+    char text[OPTION_MAX_NAMES + OPTION_MAX_TEXT + 64];
     FILE *stream;
     int result;
-    int length = snprintf(text, sizeof text, "%s: %s\n", name, value);
+    const bool is_bare = is_bare_list(option_find(loading->table, name), value);
+    int length = snprintf(text, sizeof text, is_bare ? "%s: [%s]\n" : "%s: %s\n", name, value);
 
     if (length < 0 || length >= (int)sizeof text) {
         snprintf(error, error_size, "%s: %s: value is too long", origin, name);

@@ -17,8 +17,9 @@
 extern "C" {
 #endif
 
-#define OPTION_MAX_LIST 16  /* longest list of numbers */
-#define OPTION_MAX_TEXT 256 /* longest text, with its terminator */
+#define OPTION_MAX_LIST 16    /* longest list of numbers */
+#define OPTION_MAX_TEXT 256   /* longest text, with its terminator */
+#define OPTION_MAX_NAMES 4096 /* longest list of names, with its terminator */
 
 enum option_type {
     OPTION_BOOL,   /* field: bool */
@@ -27,6 +28,8 @@ enum option_type {
     OPTION_LIST,   /* field: struct option_list */
     OPTION_SPREAD, /* field: struct option_list; a single number, n = 1, stands for every entry */
     OPTION_TEXT,   /* field: char[OPTION_MAX_TEXT] */
+    OPTION_NAMES,  /* field: char[OPTION_MAX_NAMES], a line each; written as a list, or as one
+                    * text that blanks part, for names without blanks */
     OPTION_CHOICE, /* field: int, the index of the word in `choices` */
 };
 
@@ -63,7 +66,8 @@ extern const char option_preset[];
     }
 
 /* Fills `target` with the table's defaults, then with the YAML files `paths`, a later one over an
- * earlier one, then with `n_overrides` texts "name=value". The struct is validated whole: on
+ * earlier one, then with `n_overrides` texts "name=value", where a list may be
+ * "1,2,3" without brackets. The struct is validated whole: on
  * failure it is unspecified and must not be used. returns 0, or -1 with one line in `error`
  * ("etc/kobian.yaml:12: reach.gain: ..."). */
 int options_load(const struct option_row *table, void *target, const char *const *paths,

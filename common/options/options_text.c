@@ -59,6 +59,21 @@ static void list_text(const struct option_row *row, const struct option_list *li
             append(row, i == 0 ? "[" : ", ", list->value[i], i == list->n - 1 ? "]" : "", text);
 }
 
+/* Cut where the text is full: names have no default, so that nobody reads this again. */
+static void names_text(const char *names, char text[OPTION_TEXT_SIZE])
+{
+    size_t used = 0;
+
+    while (*names && used + 3 < OPTION_TEXT_SIZE) {
+        size_t length = strcspn(names, "\n");
+        used += (size_t)snprintf(text + used, OPTION_TEXT_SIZE - used, "%s%.*s", used ? ", " : "[",
+                                 (int)length, names);
+        names += length + (names[length] == '\n');
+    }
+    if (used && used + 1 < OPTION_TEXT_SIZE)
+        snprintf(text + used, OPTION_TEXT_SIZE - used, "]");
+}
+
 static void choice_text(const struct option_row *row, int index, char text[OPTION_TEXT_SIZE])
 {
     const char *word = row->choices;
@@ -90,6 +105,9 @@ void option_text(const struct option_row *row, const void *target, char text[OPT
     case OPTION_TEXT:
         snprintf(text, OPTION_TEXT_SIZE, "%s", (const char *)field);
         break;
+    case OPTION_NAMES:
+        names_text((const char *)field, text);
+        break;
     case OPTION_CHOICE:
         choice_text(row, *(const int *)field, text);
         break;
@@ -111,6 +129,8 @@ static const char *type_text(enum option_type type)
         return "number, or list of numbers";
     case OPTION_TEXT:
         return "text";
+    case OPTION_NAMES:
+        return "list of names";
     case OPTION_CHOICE:
         return "word";
     }

@@ -113,11 +113,12 @@ static int8_t answer_request(struct tick *tick, const reach_request_t *request,
 /* A save, load or forgetting that is over answers the request that waits for it. */
 static void poll_model(struct tick *tick)
 {
-    bool had_body = learner_body(tick->learner) != NULL;
     enum model_result result = tick->model.ops->poll(tick->model.context, &tick->learner);
 
-    if (had_body != (learner_body(tick->learner) != NULL))
+    bool has_body = learner_body(tick->learner) != NULL;
+    if (has_body != tick->had_body)
         context_init(&tick->context); /* its experts are others; a later body keeps them */
+    tick->had_body = has_body;
     if (result == MODEL_NOTHING || !model_works(tick))
         return;
     if (result == MODEL_DONE && tick->model_kind == REACH_REQUEST_T_LOAD)

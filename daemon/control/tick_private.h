@@ -45,6 +45,7 @@ struct tick {
     double fault_value; /* and how much it is */
     bool reset_requested;
     bool emergency_requested;
+    bool had_body;        /* experts stood on a body in the tick before */
     double q[MAX_JOINTS]; /* newest good state, rad */
     int64_t seq;          /* ticks so far */
     int64_t time;         /* that durations are measured by, us; 0 = no tick yet */

@@ -7,10 +7,10 @@
 
 #include <lcm/lcm.h>
 
-/* The whole log. Prints what it did. `settings` without a sink. Returns
- * 0, or -1 with one line in `error`. */
-int player_play_log(const char *path, const struct replay_settings *settings, char *error,
-                    size_t error_size);
+/* The whole log, of one file or of pieces in any order; "-" is standard input. Prints what it did.
+ * `settings` without a sink. Returns 0, or -1 with one line in `error`. */
+int player_play_log(const char *const *paths, int n_paths, const struct replay_settings *settings,
+                    char *error, size_t error_size);
 
 /* What comes on the bus until SIGINT or SIGTERM, which must be blocked; sends what the daemon would
  * have sent on the same channels with "REPLAY_" before their names. Prints what it did and what was

@@ -129,13 +129,16 @@ static int follow_ticks(struct replay *replay, char *error, size_t error_size)
 {
     int64_t seq = replay->trace.seq;
 
-    if (!replay->tick || seq <= replay->seq) {
+    if (replay_begins_run(replay)) {
         if (replay_begin_run(replay, error, error_size))
             return -1;
         replay->seq = 0;
         replay->report.runs++;
     }
     replay->inputs.unseen = seq - replay->seq - 1;
+    if (replay->inputs.unseen > 0 && replay->foreign[0].any && !replay->settings.lossy)
+        return replay_another_version(replay, REPLAY_TRACE, error, error_size);
+    replay->foreign[0].any = false;
     if (replay->inputs.unseen > 0 && !(replay->trace.fresh && replay->seq == 0) &&
         replay_miss(replay, REPLAY_TRACE, replay->seq + 1, replay->inputs.unseen, "before it,",
                     error, error_size))
@@ -184,13 +187,9 @@ static bool is_sound(const reach_trace_t *trace)
            trace->n_requests <= TICK_MAX_REQUESTS;
 }
 
-static int another_version(const char *channel, int64_t position, char *error, size_t error_size)
+static bool is_foreign(const void *data, size_t size, int64_t fingerprint)
 {
-    snprintf(error, error_size,
-             "byte %lld: this %s is of another version of reachd's messages; the version that made "
-             "the log can replay it",
-             (long long)position, channel);
-    return -1;
+    return size < 8 || (int64_t)big_endian(data, 8) != fingerprint;
 }
 
 static int decode_trace(struct replay *replay, const void *data, size_t size, char *error,
@@ -198,10 +197,7 @@ static int decode_trace(struct replay *replay, const void *data, size_t size, ch
 {
     reach_trace_t *trace = &replay->trace;
     size_t covered = outgoing_trace_covered();
-    int64_t fingerprint = __reach_trace_t_get_hash();
 
-    if (size < 8 || (int64_t)big_endian(data, 8) != fingerprint)
-        return another_version("REACH_TRACE", replay->position, error, error_size);
     if (size == covered + 4 && reach_trace_t_decode(data, 0, (int)size, trace) == (int)size &&
         (uint32_t)trace->checksum == checksum_crc32(data, covered) && is_sound(trace))
         return 0;
@@ -214,31 +210,38 @@ static int decode_trace(struct replay *replay, const void *data, size_t size, ch
 static int take_trace(struct replay *replay, const void *data, size_t size, char *error,
                       size_t error_size)
 {
-    if (decode_trace(replay, data, size, error, error_size) ||
-        gather_inputs(replay, error, error_size))
+    if (is_foreign(data, size, __reach_trace_t_get_hash())) {
+        replay_note_foreign(replay, REPLAY_TRACE, replay->position);
+        return 0;
+    }
+    if (decode_trace(replay, data, size, error, error_size))
+        return -1;
+    if (replay_is_repeated(replay))
+        return 0;
+    if (gather_inputs(replay, error, error_size))
         return -1;
     run_tick(replay);
     return replay->settings.verify ? replay_verify(replay, error, error_size) : 0;
 }
 
-static int take_config(struct replay *replay, const void *data, size_t size, int64_t position,
-                       char *error, size_t error_size)
+/* Whoever needs one that is none of ours misses it. */
+static void take_config(struct replay *replay, const void *data, size_t size, int64_t position)
 {
     reach_config_t *message = &replay->texts[replay->n_texts % REPLAY_CONFIGS];
     const reach_config_t *newest =
         &replay->texts[(replay->n_texts + REPLAY_CONFIGS - 1) % REPLAY_CONFIGS];
-    int64_t fingerprint = __reach_config_t_get_hash();
 
-    if (size < 8 || (int64_t)big_endian(data, 8) != fingerprint)
-        return another_version("REACH_CONFIG", position, error, error_size);
+    if (is_foreign(data, size, __reach_config_t_get_hash())) {
+        replay_note_foreign(replay, REPLAY_CONFIG, position);
+        return;
+    }
     if (reach_config_t_decode(data, 0, (int)size, message) != (int)size)
-        return 0; /* whoever needs it misses it */
+        return;
     message->text[sizeof message->text - 1] = '\0';
     message->revision[sizeof message->revision - 1] = '\0';
     if (message->checksum != newest->checksum ||
         memcmp(message->text, newest->text, sizeof newest->text) != 0)
         replay->n_texts++; /* they repeat themselves */
-    return 0;
 }
 
 int replay_take(struct replay *replay, const char *channel, const void *data, size_t size,
@@ -251,7 +254,7 @@ int replay_take(struct replay *replay, const char *channel, const void *data, si
     if (index < REPLAY_TRACE)
         recording_add(&replay->recording[index], data, size, position);
     if (index == REPLAY_CONFIG)
-        return take_config(replay, data, size, position, error, error_size);
+        take_config(replay, data, size, position);
     if (index == REPLAY_BODY)
         replay_take_body(replay, data, size);
     if (index != REPLAY_TRACE)

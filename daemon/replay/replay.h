@@ -39,17 +39,25 @@ struct replay_settings {
     void *user;
 };
 
+enum { REPLAY_RUNS = 32 };
+
 /* What is missing of one channel. */
 struct replay_lost {
     int64_t n;
     int64_t first; /* number of the first */
 };
 
+struct replay_run {
+    struct replay_lost lost[REPLAY_CHANNELS];
+};
+
 struct replay_report {
     int64_t ticks, runs;
-    double seconds; /* of the robot's time */
-    struct replay_lost lost[REPLAY_CHANNELS];
-    char revision[48]; /* of the daemon that was recorded; "" = not known */
+    double seconds;                     /* of the robot's time */
+    int64_t repeated;                   /* REACH_TRACE that were there twice, and were taken once */
+    int64_t foreign;                    /* REACH_TRACE of another layout, which were left out */
+    char revision[48];                  /* of the daemon that was recorded; "" = not known */
+    struct replay_run run[REPLAY_RUNS]; /* the last holds all runs beyond it, too */
 };
 
 struct replay;
@@ -63,6 +71,10 @@ void replay_destroy(struct replay *replay);
  * recorded differs from what was computed. */
 int replay_take(struct replay *replay, const char *channel, const void *data, size_t size,
                 int64_t position, char *error, size_t error_size);
+
+/* There are no more messages. Returns 0, or -1 with one line in `error`: nothing was replayed, or
+ * not the last tick. */
+int replay_end(const struct replay *replay, char *error, size_t error_size);
 
 const struct replay_report *replay_report(const struct replay *replay);
 

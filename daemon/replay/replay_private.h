@@ -11,7 +11,25 @@
 #include "daemon/replay/recording.h"
 #include "daemon/replay/replay.h"
 
-enum { REPLAY_CONFIGS = 64, REPLAY_BODIES = 8, REPLAY_REASON = 400 };
+enum { REPLAY_CONFIGS = 64, REPLAY_BODIES = 8, REPLAY_REASON = 400, REPLAY_NEWEST = 16 };
+
+/* Messages that come on a channel of ours and have another fingerprint. */
+struct replay_foreign {
+    bool any;         /* of traces: since the newest one of ours */
+    int64_t position; /* of the newest */
+};
+
+struct replay_trace_id {
+    int64_t seq;
+    int32_t checksum;
+};
+
+/* What was seen of traces. */
+struct replay_traces {
+    struct replay_trace_id newest[REPLAY_NEWEST];
+    int64_t n;
+    bool worked; /* in this run a tick was given something that matters */
+};
 
 struct replay {
     struct replay_settings settings;
@@ -19,6 +37,8 @@ struct replay {
     struct recording recording[REPLAY_TRACE]; /* of all channels before it */
     reach_config_t texts[REPLAY_CONFIGS];     /* newest configurations */
     int64_t n_texts;
+    struct replay_foreign foreign[2]; /* traces, configurations */
+    struct replay_traces traces;
     struct received_body bodies[REPLAY_BODIES]; /* newest that were found */
     int64_t n_bodies;
 
@@ -46,6 +66,19 @@ int replay_fail(const struct replay *replay, char *error, size_t error_size, con
  * Returns 0, or -1 with one line. */
 int replay_miss(struct replay *replay, enum replay_channel channel, int64_t first, int64_t n,
                 const char *what, char *error, size_t error_size);
+
+/* traces.c. Whether the trace at hand was logged twice; it is counted, or noted. */
+bool replay_is_repeated(struct replay *replay);
+
+/* Whether the trace at hand is the first of a run. */
+bool replay_begins_run(struct replay *replay);
+
+/* A trace or a configuration has another fingerprint. */
+void replay_note_foreign(struct replay *replay, enum replay_channel channel, int64_t position);
+
+/* Says so of the newest such message. Returns -1. */
+int replay_another_version(const struct replay *replay, enum replay_channel channel, char *error,
+                           size_t error_size);
 
 /* A tick as it was before the trace at hand, the first of a run. Returns 0, or -1 with one line. */
 int replay_begin_run(struct replay *replay, char *error, size_t error_size);

@@ -34,7 +34,8 @@ int replay_fail(const struct replay *replay, char *error, size_t error_size, con
 int replay_miss(struct replay *replay, enum replay_channel channel, int64_t first, int64_t n,
                 const char *what, char *error, size_t error_size)
 {
-    struct replay_lost *lost = &replay->report.lost[channel];
+    int64_t run = replay->report.runs < REPLAY_RUNS ? replay->report.runs : REPLAY_RUNS;
+    struct replay_lost *lost = &replay->report.run[run > 0 ? run - 1 : 0].lost[channel];
 
     if (!replay->settings.lossy)
         return replay_fail(replay, error, error_size, "%s %s %lld is not in the log", what,

@@ -28,6 +28,8 @@ static int load_recorded(struct replay *replay, struct config *config, char *err
     char text[CONFIG_TEXT_SIZE];
     char reason[REPLAY_REASON / 2];
 
+    if (!message && replay->foreign[1].any)
+        return replay_another_version(replay, REPLAY_CONFIG, error, error_size);
     if (!message)
         return replay_fail(replay, error, error_size,
                            "its configuration, of checksum %08x, was not recorded before it; start "

@@ -31,9 +31,12 @@ static int check(const struct learner_config *config, char *err, size_t err_size
     return learner_imle_ops.check(&meanwhile, err, err_size);
 }
 
+/* Of the saved state: one of another format is refused as one of other parameters. */
+static const double format = 2;
+
 static uint64_t hash_meanwhile(const struct learner_config *config, uint64_t hash)
 {
-    double numbers[] = {(double)config->body.space, config->body.degrees};
+    double numbers[] = {(double)config->body.space, config->body.degrees, format};
 
     hash = learner_hash(learner_imle_ops.hash(config, hash), numbers, sizeof numbers);
     return learner_hash(hash, config->body.order,
@@ -60,8 +63,8 @@ static void *create(const struct learner_config *config, struct arena *arena)
         return NULL;
     self->config = *config;
     kept_place(&self->waiting, BODY_WAITING, config->n_inputs, BODY_OUTPUTS, room);
-    self->contexts =
-        contexts_create(config->n_inputs, config->capacity, kernels_of(config->kernels), arena);
+    self->contexts = contexts_create(&self->body, config->n_inputs, config->capacity,
+                                     kernels_of(config->kernels), arena);
     self->meanwhile = learner_imle_ops.create(&meanwhile, arena);
     return self->contexts && self->meanwhile ? self : NULL;
 }
@@ -72,6 +75,9 @@ static enum learner_update_result update(void *self, const double *z, const doub
     double joints[LEARNER_MAX_INPUTS];
 
     order_to_chain(&learner->config, z, joints);
+    if (learner->found && body_try(learner, z, x))
+        return LEARNER_UPDATED;
+    learner->contexts->firm = !learner->doubtful;
     if (learner->found)
         return contexts_learn(learner->contexts, joints, x);
     kept_add(&learner->waiting, joints, x);
@@ -181,9 +187,12 @@ static void forget_body(struct body_learner *learner)
 {
     double inputs[LEARNER_MAX_INPUTS];
 
+    learner->given_up = 0.0;
     if (!learner->found)
         return;
-    learner->found = false;
+    learner->found = learner->doubtful = false;
+    learner->contest = contest_begin();
+    imle_forget(learner->meanwhile);
     kept_clear(&learner->waiting);
     for (int j = 0; j < learner->contexts->n; j++) {
         const struct kept *kept = &learner->contexts->context[j].kept;
@@ -220,10 +229,17 @@ static int give_body(void *self, const struct body *body, char *err, size_t err_
     }
     if (body_check(body, err, err_size) != 0)
         return -1;
-    learner->body = *body;
+    if (learner->given_up > 0.0 && body->error * body->error >= learner->given_up) {
+        snprintf(err, err_size,
+                 "polynomials foretell better than a body that is off by %.1f times "
+                 "the noise",
+                 body->error);
+        return -1;
+    }
     learner->found = true;
-    imle_forget(learner->meanwhile); /* it has answered for the last time */
-    contexts_stand_on(learner->contexts, &learner->body);
+    learner->given_up = 0.0;
+    body_begin_trial(learner, body);
+    contexts_stand_on(learner->contexts, body);
     for (int i = 0; first && i < waiting->n; i++)
         contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,
                        waiting->x + (ptrdiff_t)i * BODY_OUTPUTS);
@@ -235,6 +251,20 @@ static const struct body *body_of(const void *self)
     const struct body_learner *learner = self;
 
     return learner->found ? &learner->body : NULL;
+}
+
+static struct learner_body_change change_of(const void *self)
+{
+    const struct body_learner *learner = self;
+    const struct body_news *news = &learner->contexts->news;
+    struct learner_body_change change = {(uint64_t)news->changes, news->cause, {0}, 0.0};
+
+    memcpy(change.by, news->by, sizeof change.by);
+    if (change.cause >= 0 && change.cause < learner->config.n_inputs)
+        change.cause = learner->config.body.order[change.cause];
+    for (int j = 0; j < learner->contexts->n; j++)
+        change.slip = fmax(change.slip, learner->contexts->context[j].slip);
+    return change;
 }
 
 static struct learner_samples kept_samples(const void *self, int context)
@@ -265,6 +295,8 @@ const struct learner_ops learner_body_ops = {
     .state_size = body_state_size,
     .give_body = give_body,
     .body = body_of,
+    .not_rigid = body_not_rigid,
+    .body_change = change_of,
     .kept_samples = kept_samples,
     .save = body_save,
     .load = body_load,

@@ -3,6 +3,7 @@
 #ifndef REACH_LEARNER_BODY_BODY_LEARNER_H
 #define REACH_LEARNER_BODY_BODY_LEARNER_H
 
+#include "learner/body/contest.h"
 #include "learner/body/contexts.h"
 #include "learner/imle/imle.h"
 #include "learner/kind.h"
@@ -20,11 +21,27 @@ struct body_learner {
     bool found;
     struct body body;
     struct contexts *contexts;
-    struct kept waiting; /* samples of before there was a body */
+    struct kept waiting; /* samples of before there was a body, or since one is doubtful */
+    bool doubtful;       /* the body may be none: the mixture learns on */
+    struct contest contest;
+    struct learner_prediction scratch;
+    double given_up; /* what a body's squared error must be under, in units of the noise told, since
+                        polynomials have beaten one; 0: none was given up */
 };
+
+/* trial.c: a sample for the mixture that learns beside a doubtful body; gives the body up where the
+ * mixture foretells better. To be called before the contexts learn the sample (joints in the order
+ * of the inputs). True when neither is to learn it: it serves to compare them. */
+bool body_try(struct body_learner *learner, const double *z, const double *x);
+
+/* A body is about to come; the mixture of one that explains its samples is not needed any more. */
+void body_begin_trial(struct body_learner *learner, const struct body *body);
 
 /* inverse.c: as learner_predict_inverse(). */
 int body_predict_inverse(void *self, const double *x, struct learner_inverse *inverse);
+
+/* rigid.c: as learner_not_rigid(). */
+int body_not_rigid(void *self, double *share);
 
 /* state.c: the state as bytes, and back. */
 size_t body_state_size(const void *self, int n_experts);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/base/elementary.h"
+#include "learner/body/follow.h"
 #include "learner/body/vec3.h"
 
 /* A sample farther than this from what a context predicts (squared, in units of what it may differ)
@@ -18,10 +19,26 @@ static const double most_scale = 16.0;
 static const double skipped = 1e-4; /* responsibilities under this are not learned */
 /* Past that many samples, old ones fade: the tool may have slipped. */
 static const double memory_samples = 2000.0;
+static const double memory_of_slipping = 300.0;
+static const double of_slipping = 600.0; /* samples, of which kept ones still are where it is */
 
 static size_t context_numbers(const struct design *design)
 {
-    return tied_numbers(design) + kept_numbers(CONTEXTS_KEPT, design->n_joints, BODY_OUTPUTS);
+    return tied_numbers(design) + kept_numbers(CONTEXTS_KEPT, design->n_joints, BODY_OUTPUTS) +
+           contexts_anchor_numbers(design);
+}
+
+size_t contexts_anchor_numbers(const struct design *design)
+{
+    return (size_t)design->size[2] + 2 * change_sums_numbers(design->n_joints);
+}
+
+static void place_anchor(struct anchor *anchor, const struct design *design, double *numbers)
+{
+    anchor->theta = numbers;
+    change_place(&anchor->own, design->n_joints, numbers + design->size[2]);
+    change_place(&anchor->astray, design->n_joints,
+                 numbers + design->size[2] + change_sums_numbers(design->n_joints));
 }
 
 /* Sizes alone: those of any body with so many joints. */
@@ -44,8 +61,8 @@ size_t contexts_memory(int n_joints)
     return arena_footprint(sizeof(struct contexts)) + arena_footprint(numbers * sizeof(double));
 }
 
-struct contexts *contexts_create(int n_joints, int most, const struct kernels *kernels,
-                                 struct arena *arena)
+struct contexts *contexts_create(struct body *body, int n_joints, int most,
+                                 const struct kernels *kernels, struct arena *arena)
 {
     struct design design = design_of(n_joints);
     size_t P = (size_t)design.size[2];
@@ -56,6 +73,7 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
 
     if (!contexts || !room)
         return NULL;
+    contexts->body = body;
     contexts->design = design;
     contexts->kernels = kernels;
     contexts->most = most < CONTEXTS_MAX ? most : CONTEXTS_MAX;
@@ -64,7 +82,10 @@ struct contexts *contexts_create(int n_joints, int most, const struct kernels *k
         tied_place(&context->tied, &design, room + j * each);
         kept_place(&context->kept, CONTEXTS_KEPT, n_joints, BODY_OUTPUTS,
                    room + j * each + tied_numbers(&design));
+        place_anchor(&context->anchor, &design,
+                     room + (j + 1) * each - contexts_anchor_numbers(&design));
     }
+    contexts->news.cause = -1;
     contexts->rows = room + CONTEXTS_ROOM * each;
     contexts->white = contexts->rows + 3 * P;
     tied_place_scratch(&contexts->scratch, &design, contexts->white + 3 * P);
@@ -82,30 +103,29 @@ static bool within_sense(const struct design *design, const struct body *body, c
     return true;
 }
 
-/* The sample as the regressions want it: rows and y in units of the noise, which is that of the
- * sensor and of what is not yet known of the body. */
-static bool whiten_sample(struct contexts *contexts, const double *z, const double *x, double *y)
+bool contexts_whiten(struct contexts *contexts, const double *z, const double *x, double *y)
 {
     const struct body *body = contexts->body;
     int P = contexts->design.size[2];
-    struct chain_pose pose;
+    struct chain_pose *pose = &contexts->pose;
+    double *white = contexts->by_noise;
     double doubt[9] = {0};
-    double white[9];
-    double place[3];
+    double apart[3];
     double half[9];
 
-    if (!body_place(body, x, place, white))
+    if (!body_place(body, x, contexts->place, white))
         return false;
-    chain_at(&body->chain, z, &pose);
-    design_rows(&contexts->design, body, &pose, contexts->rows);
-    body_add_doubt(body, &pose, place, x, doubt);
+    chain_at(&body->chain, z, pose);
+    design_rows(&contexts->design, body, pose, contexts->rows);
+    body_add_doubt(body, pose, contexts->place, x, doubt);
     mat3_multiply(white, doubt, half);
     for (int r = 0; r < 3; r++)
         for (int s = 0; s < 3; s++)
             contexts->doubt[3 * r + s] =
                 vec3_dot(half + (ptrdiff_t)3 * r, white + (ptrdiff_t)3 * s);
-    vec3_add(-1.0, pose.p, place);
-    mat3_apply(white, place, y);
+    memcpy(apart, contexts->place, sizeof apart);
+    vec3_add(-1.0, pose->p, apart);
+    mat3_apply(white, apart, y);
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < P; k++)
             contexts->white[r * P + k] = white[3 * r] * contexts->rows[k] +
@@ -166,7 +186,8 @@ static double weigh(struct contexts *contexts, const double *y)
 static void learn_in(struct contexts *contexts, int j, double h, const double *y)
 {
     struct context *context = &contexts->context[j];
-    double keep = context->support > memory_samples ? 1.0 - h / memory_samples : 1.0;
+    double memory = context->anchor.slips ? memory_of_slipping : memory_samples;
+    double keep = context->support > memory ? 1.0 - h / memory : 1.0;
     double misfit = contexts->fit[j].distance[context->tied.chosen] / BODY_OUTPUTS;
 
     if (contexts_confirmed(context)) {
@@ -193,6 +214,8 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
     context->confirmed = false;
     contexts->gain[j] = 0.0;
     context->scale = 1.0;
+    context->slip = 0.0;
+    context->anchor.known = context->anchor.slips = false;
     tied_reset(&context->tied, &contexts->design);
     kept_clear(&context->kept);
     tied_test(&context->tied, &contexts->design, contexts->kernels, contexts->white, y,
@@ -253,20 +276,24 @@ enum learner_update_result contexts_learn(struct contexts *contexts, const doubl
 
     if (!within_sense(&contexts->design, contexts->body, z))
         return LEARNER_REFUSED;
-    if (!whiten_sample(contexts, z, x, y))
+    if (!contexts_whiten(contexts, z, x, y))
         return LEARNER_OUTLIER;
     if (weigh(contexts, y) <= own) {
         int winner = most_responsible(contexts);
         if (!contexts_strained(contexts, winner)) {
+            follow_sample(contexts, winner, x, y);
             learn_known(contexts, winner, z, x, y);
+            follow_look(contexts);
             return LEARNER_UPDATED;
         }
         contexts->context[winner].recent *= 0.5; /* the new one is as likely */
     }
+    follow_sample(contexts, -1, x, y);
     if (!give_birth(contexts, z, x, y))
         return LEARNER_OUTLIER;
     doubt_others(contexts);
     contexts_tidy(contexts, contexts->n - 1);
+    follow_look(contexts);
     return LEARNER_BORN;
 }
 
@@ -274,6 +301,7 @@ static void relearn(struct contexts *contexts, int j)
 {
     struct context *context = &contexts->context[j];
     struct kept *kept = &context->kept;
+    double oldest = follow_leaves(context) ? kept->offered - of_slipping : 0.0;
     double support = context->support;
     double y[BODY_OUTPUTS];
 
@@ -282,7 +310,8 @@ static void relearn(struct contexts *contexts, int j)
     context->scale = 1.0;
     for (int i = 0; i < kept->n; i++) {
         const double *z = kept->z + (ptrdiff_t)i * kept->n_inputs;
-        if (!whiten_sample(contexts, z, kept->x + (ptrdiff_t)i * BODY_OUTPUTS, y))
+        if (kept->at[i] < oldest ||
+            !contexts_whiten(contexts, z, kept->x + (ptrdiff_t)i * BODY_OUTPUTS, y))
             continue;
         tied_test(&context->tied, &contexts->design, contexts->kernels, contexts->white, y,
                   contexts->doubt, &contexts->scratch, &contexts->fit[j]);
@@ -294,14 +323,23 @@ static void relearn(struct contexts *contexts, int j)
 void contexts_forget(struct contexts *contexts)
 {
     contexts->n = 0;
-    contexts->body = NULL;
+    contexts->streak = contexts->streak_left = contexts->looked = 0.0;
+    contexts->news = (struct body_news){.cause = -1};
 }
 
 void contexts_stand_on(struct contexts *contexts, const struct body *body)
 {
-    contexts->body = body;
-    design_init(&contexts->design, body);
     for (int j = 0; j < contexts->n; j++)
+        if (follow_leaves(&contexts->context[j])) {
+            relearn(contexts, j);
+            follow_left(&contexts->context[j]);
+        }
+    *contexts->body = *body;
+    contexts->streak = contexts->streak_left = 0.0;
+    design_init(&contexts->design, body);
+    for (int j = 0; j < contexts->n; j++) {
         relearn(contexts, j);
+        follow_relearned(contexts, &contexts->context[j]);
+    }
     contexts_make_room_for_confirmed(contexts, -1);
 }

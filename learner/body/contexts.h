@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "common/base/arena.h"
+#include "learner/body/change.h"
 #include "learner/body/kept.h"
 #include "learner/body/tied.h"
 
@@ -28,6 +29,25 @@ enum {
     CONTEXTS_KEPT = 512,
 };
 
+/* A tip as it was when it was last well known, and what samples of later make of it (follow.h). */
+struct anchor {
+    bool known;
+    bool slips;  /* the tip moves in the hand */
+    int size;    /* coefficients of theta that count */
+    double next; /* samples of the context with which it is taken anew, if nothing has changed */
+    double *theta;
+    struct change_sums own;    /* the context's own samples */
+    struct change_sums astray; /* the newest of all, since one of them was not understood */
+};
+
+/* Of the last change that was noticed and followed. */
+struct body_news {
+    double changes; /* all told */
+    int cause;      /* a joint, counted from 0; the number of joints: the view; -1: none yet */
+    double by[CHANGE_VIEW]; /* since another cause was: rad; of the view m, or of eyes tilt, tilt,
+                               px */
+};
+
 struct context {
     double number;  /* stays its own as long as it lives: births before its own, cyclic */
     double support; /* responsibility taken, all told */
@@ -39,23 +59,33 @@ struct context {
     bool confirmed; /* more than a mistake */
     double gain;    /* while on probation: how much better it foretold its samples than a tip that
                        could be anywhere, log */
+    double slip;    /* how far its tip has moved since, of late; 0 while that is not sure */
     struct tied tied;
     struct kept kept;
+    struct anchor anchor;
 };
 
 struct contexts {
-    const struct body *body;
+    struct body *body;
     struct design design;
     const struct kernels *kernels;
-    int most;      /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
-    int n;         /* 0 .. most + 1 */
-    double births; /* of contexts, ever */
+    int most;           /* contexts that are confirmed, 1 .. CONTEXTS_MAX */
+    int n;              /* 0 .. most + 1 */
+    double births;      /* of contexts, ever */
+    bool firm;          /* the body explains its samples: what it does not is a change of it */
+    double looked;      /* samples since it was last asked whether something has changed */
+    double streak;      /* samples since one was not understood, while that is not settled */
+    double streak_left; /* samples until it is */
+    struct body_news news;
     struct context context[CONTEXTS_ROOM];
 
     /* scratch of one call */
     double *rows;    /* Phi, 3 x size[2], in space */
     double *white;   /* the same in units of the noise */
     double doubt[9]; /* of the body, in units of the noise */
+    struct chain_pose pose;
+    double place[3];    /* where the sample was seen */
+    double by_noise[9]; /* body_place()'s matrix there */
     struct tied_scratch scratch;
     struct tied_fit fit[CONTEXTS_ROOM];
     double log_h[CONTEXTS_ROOM];
@@ -66,20 +96,29 @@ struct contexts {
 /* Bytes that contexts_create takes from an arena, for a body of n_joints. */
 size_t contexts_memory(int n_joints);
 
-/* No contexts yet, and no body. NULL when the arena is exhausted. */
-struct contexts *contexts_create(int n_joints, int most, const struct kernels *kernels,
-                                 struct arena *arena);
+/* Doubles of an anchor, which lie behind each other from its theta on. */
+size_t contexts_anchor_numbers(const struct design *design);
+
+/* No contexts yet, and nothing in `body`, which must stay: it is theirs. NULL when the arena is
+ * exhausted. */
+struct contexts *contexts_create(struct body *body, int n_joints, int most,
+                                 const struct kernels *kernels, struct arena *arena);
 
 /* Without contexts and without a body again; no number is given twice. */
 void contexts_forget(struct contexts *contexts);
 
-/* From now on on this body, which must stay: every context is learned anew from what it has kept.
- */
+/* From now on on a copy of this body, which is corrected where it changes: every context is learned
+ * anew from what it has kept. */
 void contexts_stand_on(struct contexts *contexts, const struct body *body);
 
 /* Learns z -> x. LEARNER_OUTLIER: it is nothing that an arm with a tool could do. */
 enum learner_update_result contexts_learn(struct contexts *contexts, const double *z,
                                           const double *x);
+
+/* The sample as the regressions want it: y, and in contexts->white the rows, in units of the noise,
+ * which is that of the sensor and of what is not yet known of the body. false where the eyes see
+ * nothing. */
+bool contexts_whiten(struct contexts *contexts, const double *z, const double *x, double *y);
 
 /* Whether others than its first sample have confirmed a context. */
 bool contexts_confirmed(const struct context *context);

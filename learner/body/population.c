@@ -9,7 +9,12 @@ static const double confirming_samples = 2.5;
 static const double confirming_gain = 25.0;
 static const double confirming_gain_each = 5.0;
 static const double probation = 30.0; /* samples within which these must come */
-static const double twins = 30.0;     /* samples in a row that make two contexts one */
+/* A tool that was never in hand longer than some tenths of a second, and not since: something stood
+ * there for the ball. */
+static const double fleeting = 15.0;
+static const double long_gone = 1000.0;
+static const double not_since = 1e-4;
+static const double twins = 30.0; /* samples in a row that make two contexts one */
 /* One that fits this well is fitted: 1 % lies beyond. */
 static const double fits = 11.3;
 /* Sizes of a design whose evidence is that near to the chosen one's are believed, too. */
@@ -122,7 +127,9 @@ int contexts_tidy(struct contexts *contexts, int winner)
         context->twin = fitted ? context->twin + 1.0 : 0.0;
         bool late = !contexts_confirmed(context) && context->age > probation;
         bool twin = context->twin >= twins && context->support < contexts->context[winner].support;
-        if (!late && !twin)
+        bool mistake = j != winner && context->support < fleeting && context->age > long_gone &&
+                       context->recent < not_since;
+        if (!late && !twin && !mistake)
             continue;
         contexts_remove_context(contexts, j);
         winner -= winner > j;

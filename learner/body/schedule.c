@@ -3,7 +3,7 @@
 /* Samples that differ, of the first search, and how many times as many before the next. */
 static const int first_search = 15;
 static const double more_kept = 1.25;
-static const double more_refined = 1.1; /* the same once there is a body to begin with */
+static const double more_refined = 1.05; /* the same once there is a body to begin with */
 /* What is kept is bounded and follows the robot. So a search is also due when so many were learned,
  * and then with each doubling: to refine the body in use, or to find one at last. */
 static const uint64_t first_learned = 500;

@@ -153,6 +153,30 @@ void tied_refresh(struct tied *tied, const struct design *design, const struct k
         kernels->solve(design->size[k], tied->G, tied->b, scratch->back, tied->theta[k]);
 }
 
+/* b = C theta = G^-1 G'^-1 theta. */
+void tied_set(struct tied *tied, const struct design *design, const struct kernels *kernels,
+              const double *theta, struct tied_scratch *scratch)
+{
+    int P = design->size[2];
+    double *half = tied->b;
+
+    memcpy(half, theta, (size_t)P * sizeof *half);
+    for (int i = P - 1; i >= 0; i--) { /* G' half = theta */
+        const double *row = tied->G + whitener_row(i);
+        half[i] /= row[i];
+        for (int k = 0; k < i; k++)
+            half[k] -= row[k] * half[i];
+    }
+    for (int i = 0; i < P; i++) { /* G b = half */
+        const double *row = tied->G + whitener_row(i);
+        double sum = half[i];
+        for (int k = 0; k < i; k++)
+            sum -= row[k] * tied->b[k];
+        tied->b[i] = sum / row[i];
+    }
+    tied_refresh(tied, design, kernels, scratch);
+}
+
 /* Turn t, as whitener_add() makes it (imle/whitener.c has the formula): C becomes delta C + weight
  * v v' with y = G v. */
 static void prepare_turn(int P, int t, double delta, double weight, const double *y,

@@ -77,6 +77,10 @@ void tied_add_doubt(const struct tied *tied, const struct design *design,
                     const struct kernels *kernels, const double *rows, struct tied_scratch *scratch,
                     double *covariance);
 
+/* From now on it answers with theta[size[2]], as sure of it as it was. */
+void tied_set(struct tied *tied, const struct design *design, const struct kernels *kernels,
+              const double *theta, struct tied_scratch *scratch);
+
 /* theta from G and b: after they were loaded. */
 void tied_refresh(struct tied *tied, const struct design *design, const struct kernels *kernels,
                   struct tied_scratch *scratch);

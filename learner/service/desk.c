@@ -14,6 +14,11 @@ _Static_assert((int)LEARNER_UPDATED == REPLY(UPDATED) && (int)LEARNER_BORN == RE
                    (int)LEARNER_OUTLIER == REPLY(OUTLIER) && (int)LEARNER_FULL == REPLY(FULL) &&
                    (int)LEARNER_REFUSED == REPLY(BEYOND),
                "learner_reply_t.learned is enum learner_update_result");
+_Static_assert(1 << HEALTH_FULL == REPLY(MANY_FULL) &&
+                   1 << HEALTH_OUTLIERS == REPLY(MANY_OUTLIERS) && 1 << HEALTH_FAR == REPLY(FAR) &&
+                   1 << HEALTH_CONSTANT == REPLY(CONSTANT) && 1 << HEALTH_FROZEN == REPLY(STILL) &&
+                   1 << HEALTH_EXPERTS == REPLY(EXPERTS) && HEALTH_TROUBLES == 6,
+               "learner_reply_t.troubles has a bit for each enum health_trouble");
 
 /* Somebody who waits for the disk, and for what. */
 struct waiting {
@@ -30,6 +35,9 @@ struct desk {
     struct mailbox *waiting; /* struct waiting: updates, oldest first */
     bool saving;
     struct waiting save;
+    struct health health;
+    bool learns_frozen;
+    int64_t frozen;
     int64_t requests, repeated, late, refused, dropped, malformed;
     struct learner_prediction prediction; /* for work */
     struct learner_inverse inverse;
@@ -53,9 +61,29 @@ struct desk *desk_create(const struct learner_config *config, struct learner *le
     desk->learner = learner;
     desk->store = store;
     desk->keeps = keeps;
+    health_init(&desk->health, config, DESK_HEALTH_WINDOW);
     desk->clients = clients_create(arena);
     desk->waiting = mailbox_create(arena, sizeof(struct waiting), DESK_WAITING);
     return desk->clients && desk->waiting ? desk : NULL;
+}
+
+void desk_learn_frozen(struct desk *desk)
+{
+    desk->learns_frozen = true;
+}
+
+unsigned desk_troubles(const struct desk *desk)
+{
+    const struct learner_statistics statistics = learner_get_statistics(desk->learner);
+
+    return health_judge(&desk->health, &statistics);
+}
+
+void desk_tell(const struct desk *desk, enum health_trouble trouble, char *text, size_t size)
+{
+    const struct learner_statistics statistics = learner_get_statistics(desk->learner);
+
+    health_tell(&desk->health, &statistics, trouble, text, size);
 }
 
 void desk_note_losses(struct desk *desk, int64_t dropped, int64_t malformed)
@@ -79,6 +107,8 @@ void desk_describe(const struct desk *desk, reach_learner_reply_t *reply)
         .storing = report.storing,
         .outliers = (int64_t)statistics.outliers,
         .full = (int64_t)statistics.full,
+        .frozen = desk->frozen,
+        .troubles = (int32_t)health_judge(&desk->health, &statistics),
         .requests = desk->requests,
         .repeated = desk->repeated,
         .late = desk->late,
@@ -106,14 +136,28 @@ static void reply_to(struct desk *desk, int64_t client, const struct deed *deed,
         reply->status = REPLY(NOT_STORED);
 }
 
+/* Returns a constant of learner_reply_t.learned. */
+static int8_t learn(struct desk *desk, const reach_learner_request_t *request)
+{
+    bool sound = health_look(&desk->health, request->z, request->x);
+    enum learner_update_result result;
+
+    desk->frozen += !sound;
+    if (!sound && !desk->learns_frozen)
+        return REPLY(FROZEN);
+    model_store_note(desk->store, request->z, request->x);
+    result = learner_update(desk->learner, request->z, request->x);
+    health_count(&desk->health, result);
+    return (int8_t)result;
+}
+
 static int8_t update(struct desk *desk, const reach_learner_request_t *request, struct deed *deed)
 {
     struct waiting waiting = {.client = request->client};
 
     if (desk->keeps && (model_store_full(desk->store) || mailbox_full(desk->waiting)))
         return REPLY(BUSY);
-    model_store_note(desk->store, request->z, request->x);
-    deed->learned = (int8_t)learner_update(desk->learner, request->z, request->x);
+    deed->learned = learn(desk, request);
     deed->sample = (int64_t)model_samples(desk->learner);
     deed->waits = desk->keeps;
     waiting.deed = *deed;
@@ -168,6 +212,7 @@ static void predict_forward(struct desk *desk, const double *z, reach_learner_pr
     const size_t n_inputs = (size_t)desk->n_inputs, n_outputs = (size_t)desk->n_outputs;
 
     out->n_solutions = learner_predict(desk->learner, z, &desk->prediction);
+    health_count_solutions(&desk->health, out->n_solutions);
     for (int s = 0; s < out->n_solutions; s++) {
         const struct learner_solution *solution = &desk->prediction.solution[s];
         out->weight[s] = solution->weight;

@@ -7,6 +7,7 @@
 #define REACH_LEARNER_SERVICE_DESK_H
 
 #include "common/base/arena.h"
+#include "learner/health/health.h"
 #include "learner/learner.h"
 #include "learner/store/store.h"
 
@@ -16,7 +17,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define DESK_WAITING 1024 /* answers that may wait for the disk; a power of two */
+#define DESK_WAITING 1024       /* answers that may wait for the disk; a power of two */
+#define DESK_HEALTH_WINDOW 2000 /* newest samples that are judged */
 
 struct desk;
 
@@ -26,6 +28,13 @@ size_t desk_memory(void);
  * caller's. NULL when the arena is full. */
 struct desk *desk_create(const struct learner_config *config, struct learner *learner,
                          struct model_store *store, bool keeps, struct arena *arena);
+
+/* From now on samples whose outputs stand still while inputs move are learned, too. */
+void desk_learn_frozen(struct desk *desk);
+
+/* What is wrong with the samples, bit 1 << enum health_trouble each, and one line about one. */
+unsigned desk_troubles(const struct desk *desk);
+void desk_tell(const struct desk *desk, enum health_trouble trouble, char *text, size_t size);
 
 enum desk_answer { DESK_SILENT, DESK_REPLY, DESK_PREDICTION };
 

@@ -14,6 +14,7 @@
 
 static const int64_t patience_us = 100000;  /* without anything to do */
 static const int64_t tell_period = 1000000; /* us */
+static const int64_t repeat_us = 600000000; /* before a trouble is told again */
 
 enum { BATCH = 64 }; /* requests between two looks at what is due */
 
@@ -27,6 +28,7 @@ struct server {
     bool keeps;
     struct notify_watchdog watchdog;
     int64_t told;
+    int64_t told_of[HEALTH_TROUBLES]; /* when; 0 = never */
     struct desk_output output;
 };
 
@@ -90,6 +92,21 @@ static bool answer_batch(struct server *server)
     return true;
 }
 
+static void tell_troubles(struct server *server, int64_t now)
+{
+    const unsigned troubles = desk_troubles(server->desk);
+    char text[512];
+
+    for (int trouble = 0; trouble < HEALTH_TROUBLES; trouble++) {
+        int64_t *told = &server->told_of[trouble];
+        if (!(troubles & 1U << trouble) || (*told != 0 && now - *told < repeat_us))
+            continue;
+        *told = now;
+        desk_tell(server->desk, (enum health_trouble)trouble, text, sizeof text);
+        log_warning("%s", text);
+    }
+}
+
 static void tell_service(struct server *server)
 {
     const int64_t now = bus_monotonic_us();
@@ -99,6 +116,7 @@ static void tell_service(struct server *server)
     if (now - server->told < tell_period)
         return;
     server->told = now;
+    tell_troubles(server, now);
     desk_describe(server->desk, &reply);
     notify_send("STATUS=%lld samples, %d experts, %lld requests, %lld dropped",
                 (long long)reply.samples, reply.experts, (long long)reply.requests,
@@ -158,6 +176,8 @@ static int create(struct server *server, const struct settings *settings, lcm_t 
         snprintf(error, error_size, "out of memory");
         return -1;
     }
+    if (settings->learn_frozen)
+        desk_learn_frozen(server->desk);
     server->bus = service_bus_create(lcm, wake, NULL, server->arena, error, error_size);
     return server->bus ? 0 : -1;
 }

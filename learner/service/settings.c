@@ -24,6 +24,9 @@ static const struct option_row table[] = {
         "samples in the journal after which a snapshot is made; bounds the time of a start"),
     ROW("model.keep", OPTION_INT, model_keep, "2", 1, 1000, NULL,
         "number of snapshots kept on disk; with 2 or more, a damaged one can be rebuilt"),
+    ROW("learn_frozen", OPTION_BOOL, learn_frozen, "false", 0, 0, NULL,
+        "true = samples whose outputs stand still while inputs move are learned; false = they are "
+        "dropped and counted"),
     LEARNER_OPTION_ROWS,
     OPTION_END,
 };

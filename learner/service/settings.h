@@ -16,6 +16,7 @@ struct settings {
     char model_directory[OPTION_MAX_TEXT];
     int model_snapshot;
     int model_keep;
+    bool learn_frozen;
 };
 
 /* Reads and checks everything.

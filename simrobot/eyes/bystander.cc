@@ -12,6 +12,7 @@ double reach_of(const Shape &shape)
 {
     switch (shape.kind) {
     case ShapeKind::sphere:
+    case ShapeKind::mesh:
         return shape.size.x();
     case ShapeKind::box:
         return shape.size.norm() / 2;

@@ -46,6 +46,16 @@ public:
             }
     }
 
+    void triangles(const Triangles &corners)
+    {
+        for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+            Eigen::Vector3d a = corners[i].cast<double>(), b = corners[i + 1].cast<double>(),
+                            c = corners[i + 2].cast<double>();
+            Eigen::Vector3d out = (b - a).cross(c - a).normalized();
+            triangle(a, b, c, out, out, out);
+        }
+    }
+
 private:
     void band(const Ring &low, const Ring &high, double from, double to)
     {
@@ -159,6 +169,8 @@ void mesh_append(const Shape &shape, Corners *corners)
         return writer.turn(capsule_rings(shape.size[0], shape.size[1]), 10);
     case ShapeKind::box:
         return writer.box(shape.size);
+    case ShapeKind::mesh:
+        return writer.triangles(*shape.triangles);
     }
 }
 

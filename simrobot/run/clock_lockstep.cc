@@ -91,9 +91,10 @@ private:
             return;
         complained_ = now;
         log_warning("reachd has not answered state %lld for %.1f s; is it running with "
-                    "--lockstep, and vision beside it?",
+                    "--lockstep%s, and are the %d joints within its arm.min .. arm.max?",
                     static_cast<long long>(session_.state_seq()),
-                    static_cast<double>(waited) * 1e-6);
+                    static_cast<double>(waited) * 1e-6,
+                    session_.has_eyes() ? ", vision beside it" : "", session_.n_joints());
     }
 
     const int64_t resend_us_, timeout_us_;

@@ -70,6 +70,16 @@ public:
      * measured end-effector, for robots that have this sense. */
     void publish_state();
 
+    /* Whether images go out, and how many joints a state has. */
+    bool has_eyes() const
+    {
+        return eyes_ != nullptr;
+    }
+    int n_joints() const
+    {
+        return state_.n_joints;
+    }
+
     /* Publishes the newest state again, and what its tick waits for: image pair, end-effector. */
     void resend_state();
     int64_t state_seq() const

@@ -21,9 +21,12 @@ const struct option_row robot_rows[] = {
     {"robot.urdf", OPTION_TEXT, AT(urdf), nullptr, nullptr, 0, 0,
      "URDF file of the robot; a relative path starts at the folder of the configuration file",
      nullptr},
-    {"robot.arm_joints", OPTION_TEXT, AT(arm_joints), nullptr, nullptr, 0, 0,
-     "names of the arm's joints in the order of the messages, separated by spaces", nullptr},
-    {"robot.head_joints", OPTION_TEXT, AT(head_joints), nullptr, "", 0, 0,
+    {"robot.package_path", OPTION_TEXT, AT(package_path), nullptr, "", 0, 0,
+     "folders of packages, for meshes whose file is package://NAME/...; separated by ':'", nullptr},
+    {"robot.arm_joints", OPTION_NAMES, AT(arm_joints), nullptr, nullptr, 0, 0,
+     "names of the arm's joints in the order of the messages: [a, b], or a b where no name has a "
+     "blank", nullptr},
+    {"robot.head_joints", OPTION_NAMES, AT(head_joints), nullptr, "", 0, 0,
      "names of the head's joints: yaw (positive to the left), then pitch (positive down); empty = "
      "no head", nullptr},
     {"robot.hand_link", OPTION_TEXT, AT(hand_link), nullptr, nullptr, 0, 0,
@@ -32,8 +35,9 @@ const struct option_row robot_rows[] = {
      "link of the left eye: x along the optical axis, z up; empty = no eyes", nullptr},
     {"robot.right_eye", OPTION_TEXT, AT(right_eye), nullptr, "", 0, 0,
      "link of the right eye: x along the optical axis, z up; empty = no eyes", nullptr},
-    {"robot.start", OPTION_LIST, AT(start), "deg", "[]", -180, 180,
-     "joint angles at the start and after a reset: the arm's, then the head's; empty = all 0",
+    {"robot.start", OPTION_LIST, AT(start), "deg", "[]", -36000, 36000,
+     "joint angles at the start and after a reset: the arm's, then the head's; a joint that slides "
+     "in m; empty = all 0, or the middle of a range without 0",
      nullptr},
     {"robot.hard_stops", OPTION_BOOL, AT(hard_stops), nullptr, "true", 0, 0,
      "true = mechanical stops at the URDF's limits; false = joints can pass their limits, so that "
@@ -41,6 +45,9 @@ const struct option_row robot_rows[] = {
     {"robot.collisions", OPTION_BOOL, AT(collisions), nullptr, "false", 0, 0,
      "true = the URDF's <collision> shapes and the tool stop each other; false = they pass "
      "through each other", nullptr},
+    {"robot.repair_inertia", OPTION_BOOL, AT(repair_inertia), nullptr, "false", 0, 0,
+     "true = a link that moves without a mass, or with an inertia that no body has, takes that of a "
+     "ball of water; false = it is refused", nullptr},
     {"motor.arm_acceleration", OPTION_NUMBER, AT(arm_acceleration), "deg/s2", "600", 10, 100000,
      "greatest acceleration that the motor drivers of the arm allow", nullptr},
     {"motor.head_acceleration", OPTION_NUMBER, AT(head_acceleration), "deg/s2", "1500", 10, 100000,

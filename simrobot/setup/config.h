@@ -33,14 +33,16 @@ struct ToolConfig {
 
 struct Config {
     char urdf[OPTION_MAX_TEXT];
-    char arm_joints[OPTION_MAX_TEXT];
-    char head_joints[OPTION_MAX_TEXT];
+    char package_path[OPTION_MAX_TEXT];
+    char arm_joints[OPTION_MAX_NAMES]; /* a line each */
+    char head_joints[OPTION_MAX_NAMES];
     char hand_link[OPTION_MAX_TEXT];
     char left_eye[OPTION_MAX_TEXT];
     char right_eye[OPTION_MAX_TEXT];
     struct option_list start;
     bool hard_stops;
     bool collisions;
+    bool repair_inertia;
 
     double arm_acceleration;
     double head_acceleration;

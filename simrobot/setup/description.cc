@@ -1,11 +1,9 @@
 #include "simrobot/setup/description.h"
 
-#include <urdf_parser/urdf_parser.h>
-
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <sstream>
+
+#include "simrobot/setup/drives.h"
+#include "simrobot/setup/inertia.h"
 
 namespace sim
 {
@@ -23,148 +21,186 @@ Eigen::Isometry3d pose_of(const urdf::Pose &pose)
     return Eigen::Translation3d(vector_of(pose.position)) * rotation.normalized();
 }
 
+Inertia inertia_of(const urdf::Inertial &inertial)
+{
+    Inertia result;
+
+    result.mass = inertial.mass;
+    result.about_centre << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy,
+        inertial.iyz, inertial.ixz, inertial.iyz, inertial.izz;
+    return result;
+}
+
 /* Turns URDF's tree into segments, depth first, children in the order of their names, so that the
  * order does not depend on the parser. */
 class Builder
 {
 public:
-    Builder(const std::string &path, Description *description, std::string *error)
-        : path_(path), description_(description), error_(error)
+    Builder(const urdf::ModelInterface &model, const std::set<std::string> &driven,
+            bool repair_inertia, UrdfSource *source, Description *description)
+        : drives_(model, driven, source), repair_inertia_(repair_inertia), source_(source),
+          description_(description)
     {
     }
 
-    bool add_base(const urdf::Link &root)
+    void build(const urdf::Link &root)
     {
         Segment base = {};
-        base.parent = -1;
+        base.parent = base.leader = -1;
         base.origin.setIdentity();
         base.axis = Eigen::Vector3d::UnitZ();
         base.centre_of_mass.setZero();
         base.inertia.setZero();
-        description_->segments.push_back(base);
-        return add_link(root, 0, Eigen::Isometry3d::Identity());
+        add_segment(base, "");
+        add_link(root, 0, Eigen::Isometry3d::Identity());
+        find_leaders();
     }
 
 private:
-    bool fail(const std::string &what)
+    Segment &segment(int index)
     {
-        *error_ = path_ + ": " + what;
-        return false;
+        return description_->segments[static_cast<size_t>(index)];
     }
 
-    bool add_link(const urdf::Link &link, int segment, const Eigen::Isometry3d &pose)
+    int add_segment(const Segment &segment, const std::string &leader)
     {
-        description_->links[link.name] = LinkFrame{segment, pose};
+        description_->segments.push_back(segment);
+        leaders_.push_back(leader);
+        return static_cast<int>(leaders_.size()) - 1;
+    }
+
+    /* Leaders may come after those that follow them. */
+    void find_leaders()
+    {
+        for (size_t i = 1; i < leaders_.size(); i++)
+            for (size_t k = 1; k < leaders_.size(); k++)
+                if (i != k && description_->segments[k].name == leaders_[i])
+                    description_->segments[i].leader = static_cast<int>(k);
+    }
+
+    void add_link(const urdf::Link &link, int index, const Eigen::Isometry3d &pose)
+    {
+        description_->links[link.name] = LinkFrame{index, pose};
         if (link.inertial)
-            add_mass(*link.inertial, segment, pose);
+            add_mass(link, index, pose);
         for (const auto &visual : link.visual_array)
-            if (!add_visual(link, *visual, segment, pose))
-                return false;
+            add_visual(link, *visual, index, pose);
         for (const auto &collision : link.collision_array)
-            add_collision(link, *collision, segment, pose);
+            add_collision(link, *collision, index, pose);
         std::map<std::string, urdf::LinkConstSharedPtr> children;
         for (const auto &child : link.child_links)
             children[child->name] = child;
         for (const auto &[name, child] : children)
-            if (!add_joint(*child, segment, pose))
-                return false;
-        return true;
+            add_joint(*child, index, pose);
     }
 
-    bool add_joint(const urdf::Link &child, int parent, const Eigen::Isometry3d &pose)
+    void add_joint(const urdf::Link &child, int parent, const Eigen::Isometry3d &pose)
     {
         const urdf::Joint &joint = *child.parent_joint;
         Eigen::Isometry3d origin = pose * pose_of(joint.parent_to_joint_origin_transform);
+        Drive drive = drives_.of(joint);
 
-        if (joint.type == urdf::Joint::FIXED)
+        if (drive.leader.empty()) {
+            if (drive.offset != 0)
+                origin = origin * Drives::moved(joint, drive.offset);
             return add_link(child, parent, origin);
-        if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS)
-            return fail("joint " + joint.name +
-                        ": only revolute, continuous and fixed are simulated");
-        if (!joint.limits)
-            return fail("joint " + joint.name + ": <limit effort=... velocity=...> is missing");
-        if (joint.limits->effort <= 0 || joint.limits->velocity <= 0)
-            return fail("joint " + joint.name + ": effort and velocity limits must be positive");
-        description_->segments.push_back(segment_of(joint, parent, origin));
-        int index = static_cast<int>(description_->segments.size()) - 1;
-        if (!add_link(child, index, Eigen::Isometry3d::Identity()))
+        }
+        int index = add_segment(drives_.segment(joint, drive, parent, origin), drive.leader);
+        add_link(child, index, Eigen::Isometry3d::Identity());
+        check_mass(child, index);
+    }
+
+    Inertia inertia(int index)
+    {
+        return {segment(index).mass, segment(index).centre_of_mass, segment(index).inertia};
+    }
+
+    void set_inertia(int index, const Inertia &inertia)
+    {
+        segment(index).mass = inertia.mass;
+        segment(index).centre_of_mass = inertia.centre;
+        segment(index).inertia = inertia.about_centre;
+    }
+
+    /* What stands still may weigh what it likes. */
+    void add_mass(const urdf::Link &link, int index, const Eigen::Isometry3d &pose)
+    {
+        Inertia own = inertia_of(*link.inertial);
+        std::string wrong = inertia_impossible(own);
+
+        if (index == 0)
+            return;
+        if (!wrong.empty() && complain_of_mass(link, wrong))
+            own = inertia_of_ball(own.mass, {0, 0, 0});
+        set_inertia(index, inertia_sum(inertia(index),
+                                       inertia_moved(own, pose * pose_of(link.inertial->origin))));
+    }
+
+    void check_mass(const urdf::Link &link, int index)
+    {
+        std::string wrong = inertia_immovable(inertia(index));
+
+        if (!wrong.empty() && complain_of_mass(link, wrong))
+            set_inertia(index, inertia_of_ball(segment(index).mass, segment(index).centre_of_mass));
+    }
+
+    /* Returns whether it is to be repaired. */
+    bool complain_of_mass(const urdf::Link &link, const std::string &wrong)
+    {
+        if (repair_inertia_)
+            source_->note("link", link.name, wrong + "; it takes that of a ball");
+        else
+            source_->fault("link", link.name,
+                           wrong + "; robot.repair_inertia: true gives it that of a ball");
+        return repair_inertia_;
+    }
+
+    /* What URDF gives a shape: false for none that can be drawn or bumped into. */
+    bool set_shape(const urdf::Link &link, const char *kind,
+                   const urdf::GeometrySharedPtr &geometry, Shape *shape)
+    {
+        if (!geometry || !set_geometry(*geometry, shape))
             return false;
-        if (description_->segments[static_cast<size_t>(index)].mass <= 0)
-            return fail("link " + child.name + ": a link that moves needs <inertial> with a mass");
+        size_t n = shape->kind == ShapeKind::box ? 3 : shape->kind == ShapeKind::sphere ? 1 : 2;
+        for (size_t i = 0; i < n; i++)
+            if (!(shape->size[static_cast<int>(i)] > 0)) {
+                source_->note("link", link.name,
+                              std::string("a <") + kind + "> without size is left out");
+                return false;
+            }
         return true;
     }
 
-    static Segment segment_of(const urdf::Joint &joint, int parent, const Eigen::Isometry3d &origin)
-    {
-        bool revolute = joint.type == urdf::Joint::REVOLUTE;
-        double infinity = std::numeric_limits<double>::infinity();
-        Segment segment = {};
-
-        segment.name = joint.name;
-        segment.parent = parent;
-        segment.origin = origin;
-        segment.axis = vector_of(joint.axis).normalized();
-        segment.lower = revolute ? joint.limits->lower : -infinity;
-        segment.upper = revolute ? joint.limits->upper : infinity;
-        segment.effort = joint.limits->effort;
-        segment.velocity = joint.limits->velocity;
-        segment.centre_of_mass.setZero();
-        segment.inertia.setZero();
-        return segment;
-    }
-
-    /* Adds a link's mass to its segment's (Steiner's theorem). */
-    void add_mass(const urdf::Inertial &inertial, int index, const Eigen::Isometry3d &pose)
-    {
-        Segment &segment = description_->segments[static_cast<size_t>(index)];
-        Eigen::Isometry3d frame = pose * pose_of(inertial.origin);
-        Eigen::Matrix3d own;
-        own << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz,
-            inertial.ixz, inertial.iyz, inertial.izz;
-        own = frame.linear() * own * frame.linear().transpose();
-
-        double total = segment.mass + inertial.mass;
-        if (total <= 0)
-            return;
-        Eigen::Vector3d centre =
-            (segment.mass * segment.centre_of_mass + inertial.mass * frame.translation()) / total;
-        segment.inertia = segment.inertia + shift(segment.mass, segment.centre_of_mass - centre) +
-                          own + shift(inertial.mass, frame.translation() - centre);
-        segment.centre_of_mass = centre;
-        segment.mass = total;
-    }
-
-    static Eigen::Matrix3d shift(double mass, const Eigen::Vector3d &r)
-    {
-        return mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
-    }
-
-    bool add_visual(const urdf::Link &link, const urdf::Visual &visual, int index,
+    void add_visual(const urdf::Link &link, const urdf::Visual &visual, int index,
                     const Eigen::Isometry3d &pose)
     {
         Shape shape = {};
-        if (!visual.geometry || !set_geometry(*visual.geometry, &shape))
-            return fail("link " + link.name + ": only box, cylinder and sphere visuals are drawn");
+
         shape.pose = pose * pose_of(visual.origin);
         shape.colour = visual.material
                            ? Eigen::Vector3f(visual.material->color.r, visual.material->color.g,
                                              visual.material->color.b)
                            : Eigen::Vector3f(0.7f, 0.7f, 0.7f);
-        description_->segments[static_cast<size_t>(index)].shapes.push_back(shape);
-        return true;
+        if (visual.geometry && visual.geometry->type == urdf::Geometry::MESH) {
+            const auto &mesh = static_cast<const urdf::Mesh &>(*visual.geometry);
+            description_->meshes.push_back({index, link.name, mesh.filename, vector_of(mesh.scale),
+                                            shape.pose, visual.material != nullptr, shape.colour});
+        } else if (set_shape(link, "visual", visual.geometry, &shape)) {
+            segment(index).shapes.push_back(shape);
+        }
     }
 
-    /* What cannot be simulated matters only to who asks for collisions (rig_load). */
+    /* Meshes matter only to who asks for collisions (rig_load). */
     void add_collision(const urdf::Link &link, const urdf::Collision &collision, int index,
                        const Eigen::Isometry3d &pose)
     {
         Shape shape = {};
-        if (!collision.geometry || !set_geometry(*collision.geometry, &shape)) {
-            description_->mesh_link = link.name;
-            return;
-        }
+
         shape.pose = pose * pose_of(collision.origin);
-        description_->segments[static_cast<size_t>(index)].collisions.push_back(shape);
+        if (collision.geometry && collision.geometry->type == urdf::Geometry::MESH)
+            description_->mesh_link = link.name;
+        else if (set_shape(link, "collision", collision.geometry, &shape))
+            segment(index).collisions.push_back(shape);
     }
 
     static bool set_geometry(const urdf::Geometry &geometry, Shape *shape)
@@ -185,45 +221,34 @@ private:
         return true;
     }
 
-    std::string path_;
+    Drives drives_;
+    bool repair_inertia_;
+    UrdfSource *source_;
     Description *description_;
-    std::string *error_;
+    std::vector<std::string> leaders_; /* for each segment, the joint that drives it */
 };
-
-bool read_file(const std::string &path, std::string *text)
-{
-    std::ifstream file(path);
-    std::stringstream buffer;
-    if (!file || !(buffer << file.rdbuf()))
-        return false;
-    *text = buffer.str();
-    return true;
-}
 
 } // namespace
 
-bool description_load(const std::string &path, Description *description, std::string *error)
+bool description_load(const std::string &path, const Wanted &wanted, Description *description,
+                      Findings *findings)
 {
-    std::string text;
+    UrdfSource source(path, findings);
+    std::set<std::string> driven(wanted.joints.begin(), wanted.joints.end());
 
     *description = Description{};
     description->path = path;
-    if (!read_file(path, &text)) {
-        *error = path + ": cannot be read";
+    urdf::ModelInterfaceSharedPtr model = source.load(driven);
+    if (!model)
         return false;
-    }
-    urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
-    if (!model || !model->getRoot()) {
-        *error = path + ": not a URDF robot (see the lines above)";
-        return false;
-    }
-    return Builder(path, description, error).add_base(*model->getRoot());
+    Builder(*model, driven, wanted.repair_inertia, &source, description).build(*model->getRoot());
+    return true;
 }
 
 int description_joint(const Description &description, const std::string &name, std::string *error)
 {
     for (size_t i = 1; i < description.segments.size(); i++)
-        if (description.segments[i].name == name)
+        if (description.segments[i].name == name && description.segments[i].leader < 0)
             return static_cast<int>(i);
     *error = description.path + ": joint " + name +
              " is missing or does not turn, but the configuration names it";

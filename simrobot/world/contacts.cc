@@ -30,6 +30,7 @@ dGeomID create(const Shape &shape)
         return dCreateSphere(nullptr, radius);
     case ShapeKind::capsule:
         return dCreateCapsule(nullptr, radius, length);
+    case ShapeKind::mesh: /* is in no <collision> that got here */
     case ShapeKind::cylinder:
         break;
     }

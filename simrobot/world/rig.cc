@@ -9,66 +9,153 @@ namespace sim
 namespace
 {
 
-/* Joints that are named in a text, separated by spaces. */
-bool add_joints(const char *names, Rig *rig, std::string *error)
-{
-    std::istringstream words(names);
-    std::string name;
+const double radians_per_degree = M_PI / 180;
 
-    while (words >> name) {
-        int segment = description_joint(rig->description, name, error);
-        if (segment < 0)
-            return false;
-        if (std::count(rig->joints.begin(), rig->joints.end(), segment)) {
-            *error = "robot: joint " + name + " is named twice";
-            return false;
+/* By so much a start may pass a limit that was rounded otherwise; rad, m. */
+const double rounding = 1e-4;
+
+std::vector<std::string> words_of(const char *names)
+{
+    std::istringstream lines(names);
+    std::vector<std::string> words;
+
+    for (std::string line; std::getline(lines, line);)
+        words.push_back(line);
+    return words;
+}
+
+/* Finds what the configuration names in a robot; everything that is wrong is gathered. */
+class Finder
+{
+public:
+    Finder(const Config &config, Rig *rig, std::vector<std::string> *faults)
+        : config_(config), rig_(rig), faults_(faults)
+    {
+    }
+
+    void find(const std::vector<std::string> &arm, const std::vector<std::string> &head)
+    {
+        add_joints(arm);
+        rig_->n_arm = static_cast<int>(rig_->joints.size());
+        add_joints(head);
+        size_t n = rig_->joints.size();
+        if (arm.empty() || n > static_cast<size_t>(max_joints))
+            faults_->push_back("robot: between 1 and " + std::to_string(max_joints) +
+                               " joints are wanted");
+        bool complete = n == arm.size() + head.size(); /* else nothing may move */
+        if (find_link(config_.hand_link, &rig_->hand) && rig_->hand.segment == 0 && complete)
+            faults_->push_back(rig_->description.path + ": link " + config_.hand_link +
+                               " does not move");
+        find_collisions();
+        find_eyes(head.size());
+        if (complete)
+            find_start();
+    }
+
+private:
+    void add_joints(const std::vector<std::string> &names)
+    {
+        for (const std::string &name : names) {
+            std::string error;
+            int segment = description_joint(rig_->description, name, &error);
+            if (segment < 0)
+                faults_->push_back(error);
+            else if (std::count(rig_->joints.begin(), rig_->joints.end(), segment))
+                faults_->push_back("robot: joint " + name + " is named twice");
+            else
+                rig_->joints.push_back(segment);
         }
-        rig->joints.push_back(segment);
     }
-    return true;
-}
 
-bool find_link(const Rig &rig, const char *name, LinkFrame *frame, std::string *error)
-{
-    const LinkFrame *found = description_link(rig.description, name, error);
+    bool find_link(const char *name, LinkFrame *frame)
+    {
+        std::string error;
+        const LinkFrame *found = description_link(rig_->description, name, &error);
 
-    if (!found)
-        return false;
-    *frame = *found;
-    return true;
-}
-
-/* Who asks for collisions is told what would not collide. */
-bool find_collisions(const Config &config, const Rig &rig, std::string *error)
-{
-    const Description &description = rig.description;
-    bool any = std::any_of(description.segments.begin(), description.segments.end(),
-                           [](const Segment &segment) { return !segment.collisions.empty(); });
-
-    if (!config.collisions || (any && description.mesh_link.empty()))
-        return true;
-    *error = description.path + ": robot.collisions: " +
-             (any || !description.mesh_link.empty()
-                  ? "<collision> of link " + description.mesh_link +
-                        " is a mesh; make it of boxes, cylinders and spheres"
-                  : "no link has <collision>");
-    return false;
-}
-
-bool find_eyes(const Config &config, Rig *rig, std::string *error)
-{
-    size_t n_head = rig->joints.size() - static_cast<size_t>(rig->n_arm);
-
-    if (!config.left_eye[0] && !config.right_eye[0] && n_head == 0)
-        return true;
-    if (!config.left_eye[0] || !config.right_eye[0] || n_head != 2) {
-        *error = "robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints";
-        return false;
+        if (found)
+            *frame = *found;
+        else
+            faults_->push_back(error);
+        return found != nullptr;
     }
-    rig->has_eyes = true;
-    return find_link(*rig, config.left_eye, &rig->left_eye, error) &&
-           find_link(*rig, config.right_eye, &rig->right_eye, error);
-}
+
+    /* Who asks for collisions is told what would not collide. */
+    void find_collisions()
+    {
+        const Description &description = rig_->description;
+        bool any = std::any_of(description.segments.begin(), description.segments.end(),
+                               [](const Segment &segment) { return !segment.collisions.empty(); });
+
+        if (!config_.collisions || (any && description.mesh_link.empty()))
+            return;
+        faults_->push_back(description.path + ": robot.collisions: " +
+                           (any || !description.mesh_link.empty()
+                                ? "<collision> of link " + description.mesh_link +
+                                      " is a mesh; make it of boxes, cylinders and spheres"
+                                : "no link has <collision>"));
+    }
+
+    void find_eyes(size_t n_head)
+    {
+        if (!config_.left_eye[0] && !config_.right_eye[0] && n_head == 0)
+            return;
+        if (!config_.left_eye[0] || !config_.right_eye[0] || n_head != 2) {
+            faults_->push_back(
+                "robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints");
+            return;
+        }
+        rig_->has_eyes = true;
+        find_link(config_.left_eye, &rig_->left_eye);
+        find_link(config_.right_eye, &rig_->right_eye);
+    }
+
+    /* The option is in degrees, which config_load made radians; a joint that slides means metres.
+     */
+    void find_start()
+    {
+        size_t n = rig_->joints.size(), given = static_cast<size_t>(config_.start.n);
+
+        rig_->start.assign(n, 0.0);
+        if (given != 0 && given != n) {
+            faults_->push_back("robot.start: " + std::to_string(n) + " angles are wanted");
+            return;
+        }
+        for (size_t i = 0; i < n; i++)
+            start_joint(i, given != 0);
+    }
+
+    void start_joint(size_t i, bool given)
+    {
+        const Segment &segment = rig_->description.segments[static_cast<size_t>(rig_->joints[i])];
+        double at = given ? config_.start.value[i] / (segment.slides ? radians_per_degree : 1) : 0;
+
+        rig_->start[i] = at;
+        if (at >= segment.lower - rounding && at <= segment.upper + rounding)
+            return;
+        std::string where = "joint " + segment.name + ": " + text_of(segment, at) +
+                            " is outside its limits, " + text_of(segment, segment.lower) + " .. " +
+                            text_of(segment, segment.upper);
+        double middle = (segment.lower + segment.upper) / 2;
+        if (given)
+            faults_->push_back("robot.start: " + where);
+        else
+            rig_->notes.push_back(where + "; it starts at their middle, " +
+                                  text_of(segment, middle));
+        rig_->start[i] = middle;
+    }
+
+    static std::string text_of(const Segment &segment, double value)
+    {
+        char text[60];
+        snprintf(text, sizeof text, segment.slides ? "%.4g m" : "%.4g deg",
+                 segment.slides ? value : value / radians_per_degree);
+        return text;
+    }
+
+    const Config &config_;
+    Rig *rig_;
+    std::vector<std::string> *faults_;
+};
 
 struct PixelPoint {
     double u, v;
@@ -102,44 +189,57 @@ bool within(const Segment &segment, double angle)
 
 bool rig_load(const Config &config, Rig *rig, std::string *error)
 {
+    std::vector<std::string> arm = words_of(config.arm_joints), head = words_of(config.head_joints);
+    Findings findings;
+    Wanted wanted{arm, config.repair_inertia};
+
     *rig = Rig{};
     rig->focal_length = config.focal_length;
     rig->width = config.width;
     rig->height = config.height;
-    if (!description_load(config.urdf, &rig->description, error) ||
-        !add_joints(config.arm_joints, rig, error))
-        return false;
-    rig->n_arm = static_cast<int>(rig->joints.size());
-    if (!add_joints(config.head_joints, rig, error) ||
-        !find_link(*rig, config.hand_link, &rig->hand, error))
-        return false;
-    if (rig->hand.segment == 0) {
-        *error = rig->description.path + ": link " + config.hand_link + " does not move";
-        return false;
+    wanted.joints.insert(wanted.joints.end(), head.begin(), head.end());
+    if (description_load(config.urdf, wanted, &rig->description, &findings))
+        Finder(config, rig, &findings.faults).find(arm, head);
+    rig->notes.insert(rig->notes.begin(), findings.notes.begin(), findings.notes.end());
+    error->clear();
+    for (const std::string &fault : findings.faults)
+        *error += (error->empty() ? "" : "\n") + fault;
+    return findings.faults.empty();
+}
+
+std::vector<double> rig_positions(const Rig &rig, const std::vector<double> &angles)
+{
+    const std::vector<Segment> &segments = rig.description.segments;
+    std::vector<double> positions(segments.size(), 0.0);
+
+    for (size_t i = 0; i < rig.joints.size(); i++)
+        positions[static_cast<size_t>(rig.joints[i])] = angles[i];
+    for (size_t i = 1; i < segments.size(); i++)
+        if (segments[i].leader >= 0)
+            positions[i] =
+                segments[i].multiplier * positions[static_cast<size_t>(segments[i].leader)] +
+                segments[i].offset;
+    return positions;
+}
+
+std::vector<Eigen::Isometry3d> rig_poses(const Rig &rig, const std::vector<double> &positions)
+{
+    const std::vector<Segment> &segments = rig.description.segments;
+    std::vector<Eigen::Isometry3d> poses(segments.size(), Eigen::Isometry3d::Identity());
+
+    for (size_t i = 1; i < segments.size(); i++) {
+        poses[i] = poses[static_cast<size_t>(segments[i].parent)] * segments[i].origin;
+        if (segments[i].slides)
+            poses[i] = poses[i] * Eigen::Translation3d(positions[i] * segments[i].axis);
+        else
+            poses[i] = poses[i] * Eigen::AngleAxisd(positions[i], segments[i].axis);
     }
-    if (rig->n_arm == 0 || rig->joints.size() > static_cast<size_t>(max_joints)) {
-        *error = "robot: between 1 and " + std::to_string(max_joints) + " joints are wanted";
-        return false;
-    }
-    if (config.start.n != 0 && config.start.n != static_cast<int>(rig->joints.size())) {
-        *error = "robot.start: " + std::to_string(rig->joints.size()) + " angles are wanted";
-        return false;
-    }
-    return find_collisions(config, *rig, error) && find_eyes(config, rig, error);
+    return poses;
 }
 
 std::vector<Eigen::Isometry3d> rig_forward(const Rig &rig, const std::vector<double> &angles)
 {
-    const std::vector<Segment> &segments = rig.description.segments;
-    std::vector<double> turn(segments.size(), 0.0);
-    std::vector<Eigen::Isometry3d> poses(segments.size(), Eigen::Isometry3d::Identity());
-
-    for (size_t i = 0; i < rig.joints.size(); i++)
-        turn[static_cast<size_t>(rig.joints[i])] = angles[i];
-    for (size_t i = 1; i < segments.size(); i++)
-        poses[i] = poses[static_cast<size_t>(segments[i].parent)] * segments[i].origin *
-                   Eigen::AngleAxisd(turn[i], segments[i].axis);
-    return poses;
+    return rig_poses(rig, rig_positions(rig, angles));
 }
 
 Eigen::Isometry3d rig_link(const LinkFrame &link, const std::vector<Eigen::Isometry3d> &segments)

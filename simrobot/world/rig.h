@@ -14,6 +14,8 @@ struct Rig {
     Description description;
     std::vector<int> joints; /* segments in the order of the messages: arm, then head */
     int n_arm;
+    std::vector<double> start;      /* rad, in the order of `joints`; within their limits */
+    std::vector<std::string> notes; /* what was mended, guessed or left out, a line each */
     LinkFrame hand;
     bool has_eyes; /* two head joints and two eyes are named */
     LinkFrame left_eye, right_eye;
@@ -36,11 +38,17 @@ struct Fixation {
 };
 
 /* Reads the URDF and finds every named part in it.
- *   returns false with one line in `error`. */
+ *   returns false with all that is wrong in `error`, a line each. */
 bool rig_load(const Config &config, Rig *rig, std::string *error);
 
-/* Poses of all segments in the base's frame. `angles` in the order of `joints`; joints that the
- * configuration does not name stay at 0. */
+/* Angles of all segments' joints, those that follow others included (rad, m). `angles` in the order
+ * of `joints`. */
+std::vector<double> rig_positions(const Rig &rig, const std::vector<double> &angles);
+
+/* Poses of all segments in the base's frame, for the positions of all segments' joints. */
+std::vector<Eigen::Isometry3d> rig_poses(const Rig &rig, const std::vector<double> &positions);
+
+/* The same for these angles of `joints`. */
 std::vector<Eigen::Isometry3d> rig_forward(const Rig &rig, const std::vector<double> &angles);
 
 /* Pose of a link in the base's frame, given the poses of the segments. */

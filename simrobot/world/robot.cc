@@ -12,7 +12,6 @@ Robot::Robot(World &world, const Rig &rig, const Config &config)
     size_t n = rig.description.segments.size();
 
     bodies_.assign(n, nullptr);
-    hinges_.assign(n, nullptr);
     motors_.assign(n, Motor{config.head_acceleration, 0, 0});
     for (int i = 0; i < rig.n_arm; i++)
         motors_[static_cast<size_t>(rig.joints[static_cast<size_t>(i)])].acceleration =
@@ -21,37 +20,25 @@ Robot::Robot(World &world, const Rig &rig, const Config &config)
         add_segment(world, config, i);
 }
 
-/* Body and hinge are made at angle 0, which is where ODE then measures the angle from. */
+/* Body and joint are made at angle 0, which is where ODE then measures the angle from. */
 void Robot::add_segment(World &world, const Config &config, size_t index)
 {
     const Segment &segment = rig_.description.segments[index];
     Eigen::Isometry3d frame =
-        rig_forward(rig_, std::vector<double>(rig_.joints.size(), 0.0))[index];
-    Eigen::Vector3d axis = frame.linear() * segment.axis;
+        rig_poses(rig_, std::vector<double>(rig_.description.segments.size(), 0.0))[index];
     dBodyID body = dBodyCreate(world.id());
-    dJointID hinge = dJointCreateHinge(world.id(), nullptr);
 
     body_set_mass(body, segment.mass, segment.inertia);
     body_set_pose(body, frame * Eigen::Translation3d(segment.centre_of_mass));
-    dJointAttach(hinge, body, bodies_[static_cast<size_t>(segment.parent)]);
-    dJointSetHingeAnchor(hinge, frame.translation().x(), frame.translation().y(),
-                         frame.translation().z());
-    dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
-    dJointSetHingeParam(hinge, dParamFMax, segment.effort);
-    dJointSetHingeParam(hinge, dParamVel, 0);
-    /* A motor that pushes against its stop is stopped by the stop, not thrown back. */
-    dJointSetHingeParam(hinge, dParamBounce, 0);
-    if (config.hard_stops && std::isfinite(segment.lower)) {
-        dJointSetHingeParam(hinge, dParamLoStop, segment.lower);
-        dJointSetHingeParam(hinge, dParamHiStop, segment.upper);
-    }
     bodies_[index] = body;
-    hinges_[index] = hinge;
+    joints_.emplace_back(world, segment, frame, body, bodies_[static_cast<size_t>(segment.parent)],
+                         config.hard_stops);
 }
 
 void Robot::reset(const std::vector<double> &angles)
 {
-    std::vector<Eigen::Isometry3d> poses = rig_forward(rig_, angles);
+    std::vector<double> positions = rig_positions(rig_, angles);
+    std::vector<Eigen::Isometry3d> poses = rig_poses(rig_, positions);
 
     for (size_t i = 1; i < bodies_.size(); i++) {
         const Segment &segment = rig_.description.segments[i];
@@ -59,6 +46,7 @@ void Robot::reset(const std::vector<double> &angles)
         dBodySetLinearVel(bodies_[i], 0, 0, 0);
         dBodySetAngularVel(bodies_[i], 0, 0, 0);
         motors_[i].target = motors_[i].speed = 0;
+        joints_[i - 1].put(positions[i]);
     }
 }
 
@@ -75,16 +63,29 @@ void Robot::drive_motors()
 {
     for (size_t i = 1; i < motors_.size(); i++) {
         double most = motors_[i].acceleration * step_;
-        motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
-        dJointSetHingeParam(hinges_[i], dParamVel, motors_[i].speed);
+        if (rig_.description.segments[i].leader >= 0)
+            motors_[i].speed = speed_of_follower(rig_.description.segments[i], joints_[i - 1]);
+        else
+            motors_[i].speed += std::clamp(motors_[i].target - motors_[i].speed, -most, most);
+        joints_[i - 1].drive(motors_[i].speed);
     }
+}
+
+/* As a gear from its leader; what it has fallen behind is caught up within some steps. */
+double Robot::speed_of_follower(const Segment &segment, const Joint &follower) const
+{
+    const double share = 0.2; /* as much as ODE takes back of other joints' errors */
+    const Joint &leader = joint(segment.leader);
+    double behind = segment.multiplier * leader.position() + segment.offset - follower.position();
+
+    return segment.multiplier * leader.velocity() + share * behind / step_;
 }
 
 std::vector<double> Robot::positions() const
 {
     std::vector<double> result;
     for (int segment : rig_.joints)
-        result.push_back(dJointGetHingeAngle(hinges_[static_cast<size_t>(segment)]));
+        result.push_back(joint(segment).position());
     return result;
 }
 
@@ -92,7 +93,7 @@ std::vector<double> Robot::velocities() const
 {
     std::vector<double> result;
     for (int segment : rig_.joints)
-        result.push_back(dJointGetHingeAngleRate(hinges_[static_cast<size_t>(segment)]));
+        result.push_back(joint(segment).velocity());
     return result;
 }
 

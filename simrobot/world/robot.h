@@ -1,15 +1,16 @@
-/* The robot as ODE bodies, hinges and velocity-controlled motors. */
+/* The robot as ODE bodies, joints and velocity-controlled motors. */
 #ifndef SIMROBOT_WORLD_ROBOT_H
 #define SIMROBOT_WORLD_ROBOT_H
 
+#include "simrobot/world/joint.h"
 #include "simrobot/world/rig.h"
 #include "simrobot/world/world.h"
 
 namespace sim
 {
 
-/* Joints are in the order of the messages (Rig::joints); joints that the configuration does not
- * name are held at 0 by their motors. */
+/* Joints are in the order of the messages (Rig::joints); those that follow one of them (<mimic>) go
+ * with it. */
 class Robot
 {
 public:
@@ -49,11 +50,16 @@ private:
     };
 
     void add_segment(World &world, const Config &config, size_t index);
+    double speed_of_follower(const Segment &segment, const Joint &follower) const;
+    const Joint &joint(int segment) const
+    {
+        return joints_[static_cast<size_t>(segment) - 1];
+    }
 
     const Rig &rig_;
     double step_;                 /* of physics, s */
     std::vector<dBodyID> bodies_; /* one a segment, owned by the world */
-    std::vector<dJointID> hinges_;
+    std::vector<Joint> joints_;   /* that of segment i is at i - 1: the base has none */
     std::vector<Motor> motors_;
 };
 

@@ -10,11 +10,9 @@ namespace sim
 Simulation::Simulation(const Config &config, const Rig &rig, uint64_t seed)
     : config_(config), rig_(rig), world_(config.physics_step * 1e-3), robot_(world_, rig, config),
       light_(config, seed), mounts_(config, seed), encoder_random_(seed, 1),
-      effector_random_(seed, 8), start_(rig.joints.size(), 0.0)
+      effector_random_(seed, 8)
 {
-    for (int i = 0; i < config.start.n; i++)
-        start_[static_cast<size_t>(i)] = config.start.value[i];
-    robot_.reset(start_);
+    robot_.reset(rig.start);
     if (config.collisions)
         contacts_ = std::make_unique<Contacts>(world_, rig, robot_);
     make_tool();
@@ -22,7 +20,7 @@ Simulation::Simulation(const Config &config, const Rig &rig, uint64_t seed)
 
 void Simulation::reset()
 {
-    robot_.reset(start_);
+    robot_.reset(rig_.start);
     make_tool();
 }
 

@@ -130,7 +130,6 @@ private:
     Mounts mounts_;
     double brightness_ = 1;
     Random encoder_random_, effector_random_;
-    std::vector<double> start_;
     int64_t steps_ = 0;
     int64_t touching_steps_ = 0;
 };

@@ -76,6 +76,34 @@ bool meets_box(const Eigen::Vector3d &a, const Eigen::Vector3d &b, const Eigen::
     return !span.empty();
 }
 
+/* Whether the line meets a triangle (Moeller and Trumbore, 1997). */
+bool meets_triangle(const Eigen::Vector3d &a, const Eigen::Vector3d &b,
+                    const Eigen::Vector3f *corner)
+{
+    Eigen::Vector3d origin = corner[0].cast<double>();
+    Eigen::Vector3d u = corner[1].cast<double>() - origin, v = corner[2].cast<double>() - origin;
+    Eigen::Vector3d across = b.cross(v), from = a - origin;
+    double determinant = u.dot(across);
+
+    if (determinant == 0)
+        return false;
+    double s = from.dot(across) / determinant;
+    Eigen::Vector3d turned = from.cross(u);
+    double t = b.dot(turned) / determinant, along = v.dot(turned) / determinant;
+    return s >= 0 && t >= 0 && s + t <= 1 && along >= 0 && along <= 1;
+}
+
+bool meets_mesh(const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radius,
+                const Triangles &corners)
+{
+    if (!meets_sphere(a, b, radius))
+        return false;
+    for (size_t i = 0; i + 2 < corners.size(); i += 3)
+        if (meets_triangle(a, b, &corners[i]))
+            return true;
+    return false;
+}
+
 } // namespace
 
 bool visibility_blocks(const Shape &shape, const Eigen::Vector3d &from, const Eigen::Vector3d &to)
@@ -91,6 +119,8 @@ bool visibility_blocks(const Shape &shape, const Eigen::Vector3d &from, const Ei
         return meets_box(a, b, shape.size);
     case ShapeKind::cylinder:
         return meets_cylinder(a, b, shape.size[0], shape.size[1]);
+    case ShapeKind::mesh:
+        return meets_mesh(a, b, shape.size[0], *shape.triangles);
     case ShapeKind::capsule:
         return meets_cylinder(a, b, shape.size[0], shape.size[1]) ||
                meets_sphere(a - tip, b, shape.size[0]) || meets_sphere(a + tip, b, shape.size[0]);

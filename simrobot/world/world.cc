@@ -18,7 +18,7 @@ World::World(double step) : step_(step)
 {
     start_ode();
     id_ = dWorldCreate();
-    dWorldSetGravity(id_, 0, 0, -9.81);
+    dWorldSetGravity(id_, 0, 0, -gravity);
     /* Joints are kept together at this share of their error a step; constraints are hard. */
     dWorldSetERP(id_, 0.2);
     dWorldSetCFM(id_, 1e-10);

@@ -14,6 +14,8 @@ namespace sim
 /* The physics step where the configuration names no other; camera exposures lie on this grid. */
 inline constexpr double physics_step = 0.001; /* s */
 
+inline constexpr double gravity = 9.81; /* m/s2, along -z of the base */
+
 class World
 {
 public:

@@ -4,6 +4,7 @@ import json
 import re
 import tempfile
 import unittest
+from importlib.util import find_spec
 from pathlib import Path
 
 import markdown
@@ -78,13 +79,54 @@ class HowTo(unittest.TestCase):
         with Image.open(self.folder / "found.png") as found:
             self.assertEqual(found.size, (1280, 480))
 
+    @unittest.skipUnless(find_spec("optuna"), "without optuna")
+    def test_data_of_your_own(self):
+        """As the page goes, with fewer trials."""
+        self.assertIn("waist,", self.run_all(block("own-data.md", "head")))
+        tune = block("own-data.md", "./run tune")
+        tune = tune.replace("./run tune", ".venv/bin/python -m reach.tune")
+        tune = tune.replace("--minutes 2", "--trials 12 --no-body --out out/tune")
+        said = self.run_all(tune)
+        page = (SOURCE / "docs/howto/own-data.md").read_text()
+        for line in re.findall(r"^(?:proposed|before|ridge|Gaussian)\D*", said, re.M):
+            self.assertIn(line.strip(), page)
+        self.assertTrue((self.folder / "out/tune/report.html").exists())
+        self.run_all(block("own-data.md", "--rows"))
+        rows = (self.folder / "rows.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 1 + 140)
+        result = json.loads((self.folder / "report.json").read_text())["results"][0]
+        self.assertEqual(result["at"], 560)
+        learner = self.scratch.run(
+            block("own-data.md", "reach-learner").strip() + " & sleep 3; kill $!"
+        )
+        self.assertIn("ready", learner.stderr)
+
+    def test_the_recipe_of_the_learners_page(self):
+        """The cell of its table that the commands make."""
+        text = next(b.text for b in markdown.read(SOURCE / "docs/learner.md").blocks
+                    if "--pointer" in b.text)  # fmt: skip
+        self.run_all(text)
+        result = json.loads((self.folder / "report.json").read_text())["results"][0]
+        self.assertEqual((result["experts"], round(result["test"]["asked"]["solutions"], 2)),
+                         (2, 1.25))  # fmt: skip
+
+    def test_the_scale_of_wide_joints(self):
+        page = (SOURCE / "docs/howto/tuning.md").read_text()
+        found = re.findall(r"(\d+) mm with ([\d.]+) rad", page)
+        self.assertEqual(len(found), 3)
+        for millimetres, scale in found:
+            self.run_all(block("tuning.md", "--wide").replace("scale=2.1", f"scale={scale}"))
+            result = json.loads((self.folder / "report.json").read_text())["results"][0]
+            mean = 1000 * result["test"]["asked"]["closest"]["mean"]
+            self.assertAlmostEqual(mean, int(millimetres), delta=0.5)
+
     def test_settings_on_recorded_samples(self):
         rng = np.random.default_rng(1)
         for name in ("train", "test"):
             z = rng.uniform(-1, 1, (300, 7))
             rows = np.hstack([z, np.sin(z[:, :3]) + z[:, 3:6]])
             np.savetxt(self.folder / f"{name}.csv", rows, delimiter=",")
-        self.run_all(block("tuning.md", "reach-eval"))
+        self.run_all(block("tuning.md", "degree=3"))
         report = json.loads((self.folder / "report.json").read_text())
         self.assertEqual(report["parameters"]["degree"], 3)
 

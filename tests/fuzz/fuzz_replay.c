@@ -1,8 +1,8 @@
 /* A log that is to be replayed: as it is, and with its checksums made right again, so that what was
  * damaged gets as far as the control step. What comes out is finite, and a refusal has a reason. */
 #include "common/base/checksum.h"
+#include "common/logs/event_log.h"
 #include "daemon/bus/outgoing.h"
-#include "daemon/replay/event_log.h"
 #include "daemon/replay/player.h"
 #include "harness.h"
 
@@ -11,8 +11,6 @@
 #include <string.h>
 
 enum { CONFIG_CHECKSUM_AT = 24, CONFIG_TEXT_AT = CONFIG_CHECKSUM_AT + 4 + 48 };
-
-static struct event_log event_log;
 
 static void check_outputs(void *user, struct tick_outputs *outputs)
 {
@@ -45,21 +43,22 @@ static void replay_made_right(const char *path)
 {
     const struct replay_settings settings = {.verify = true, .lossy = true, .sink = check_outputs};
     struct replay *replay = replay_create(&settings);
+    static unsigned char message[EVENT_LOG_KEEP_OURS];
     struct event event;
     char error[512] = "";
+    struct event_log *log = event_log_open(path, EVENT_LOG_KEEP_OURS, error, sizeof error);
 
-    event_log.file = fopen(path, "rb");
-    event_log.position = 0;
-    HARNESS_REQUIRE(replay && event_log.file);
-    while (event_log_next(&event_log, &event, error, sizeof error) > 0) {
+    HARNESS_REQUIRE(replay && log);
+    while (event_log_next(log, &event, error, sizeof error) > 0) {
         if (!event.data)
             continue;
-        make_right(event.channel, event_log.data, event.size);
-        if (replay_take(replay, event.channel, event.data, event.size, event.position, error,
+        memcpy(message, event.data, event.size);
+        make_right(event.channel, message, event.size);
+        if (replay_take(replay, event.channel, message, event.size, event.position, error,
                         sizeof error))
             HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
     }
-    fclose(event_log.file);
+    event_log_close(log);
     replay_destroy(replay);
 }
 
@@ -69,7 +68,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *path = harness_file(data, size);
     char error[512] = "";
 
-    if (player_play_log(path, &settings, error, sizeof error))
+    if (player_play_log(&path, 1, &settings, error, sizeof error))
         HARNESS_REQUIRE(error[0] && !strchr(error, '\n'));
     replay_made_right(path);
     return 0;

@@ -7,12 +7,15 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     sim::Description description;
-    std::string error;
+    sim::Findings findings;
+    const sim::Wanted wanted{{"shoulder_pitch", "shoulder_yaw", "shoulder_roll", "elbow"}, false};
 
-    if (!sim::description_load(harness_file(data, size), &description, &error)) {
-        HARNESS_REQUIRE(!error.empty());
+    if (!sim::description_load(harness_file(data, size), wanted, &description, &findings)) {
+        HARNESS_REQUIRE(!findings.faults.empty());
         return 0;
     }
+    if (!findings.faults.empty())
+        return 0;
     HARNESS_REQUIRE(!description.segments.empty() && description.segments[0].parent == -1);
     for (size_t i = 1; i < description.segments.size(); i++) {
         const sim::Segment &segment = description.segments[i];

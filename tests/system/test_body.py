@@ -73,7 +73,7 @@ class Body(Replay):
         self.assertIn("joint,kind,theta", self.assert_works(session.reachctl("body", "--dh")))
         urdf = self.folder / "found.urdf"
         self.assert_works(session.reachctl("body", "--urdf", urdf))
-        joints = ElementTree.parse(urdf).getroot().findall("joint")  # noqa: S314  (it is ours)
+        joints = ElementTree.parse(urdf).getroot().findall("joint")
         self.assertEqual([joint.get("type") for joint in joints], ["revolute"] * 7)
         nowhere = session.reachctl("body", "--urdf", self.folder / "none/found.urdf")
         self.assertEqual(nowhere.returncode, 1)

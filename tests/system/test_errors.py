@@ -57,6 +57,26 @@ class Errors(unittest.TestCase):
                      "--set", "robot.arm_joints=no_such_joint")  # fmt: skip
         self.assert_one_line(result, "no_such_joint", "kobian.urdf")
 
+    def test_a_robot_is_checked_without_a_run(self):
+        simulator = programs.BINARIES / "reach-simrobot"
+        for name in ("kobian", "icub", "sixaxis"):
+            result = run(simulator, "--check", "--config", ETC / f"simrobot-{name}.yaml")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with tempfile.TemporaryDirectory() as folder:
+            urdf = Path(folder) / "arm.urdf"
+            text = (ETC / "robots/sixaxis.urdf").read_text()
+            urdf.write_text(text.replace('effort="', 'effort="0.00'))
+            command = [simulator, "--check", "--config", ETC / "simrobot-sixaxis.yaml",
+                       "--set", f"robot.urdf={urdf}"]  # fmt: skip
+            result = run(*command)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertGreaterEqual(result.stderr.count("too weak"), 2)
+            urdf.write_text(text.replace('effort="', 'effort="-'))
+            result = run(*command)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 6)
+            self.assertEqual(result.stderr.count(f"{urdf}:"), 6)
+
     def test_no_graphics(self):
         result = run(programs.BINARIES / "reach-simrobot", *COMMANDS["reach-simrobot"],
                      __EGL_VENDOR_LIBRARY_FILENAMES="/dev/null")  # fmt: skip

@@ -151,6 +151,27 @@ class Requests(Service):
         self.assertLess(float(off), 0.1)
         self.assertGreater((self.folder / "learn_a_function.png").stat().st_size, 10_000)
 
+    def test_trouble_is_told(self):
+        """By each answer, by the client, and in the log: once."""
+        self.start()
+        client = Learner()
+        walk = [3 * math.sin(0.05 * step) for step in range(200)]
+        for z in walk:
+            client.update(z, math.sin(z) + 0.001 * z)
+        self.assertEqual(client.troubles, [])
+        held = math.sin(walk[-1])
+        answers = [client.update(z + 0.5, held) for z in walk]
+        self.assertEqual(answers[-1].how, "frozen")
+        self.assertEqual(client.troubles, ["outputs stand still while inputs move"])
+        log = self.folder / "learner.log"
+        until = time.monotonic() + 10
+        while "stood still" not in log.read_text() and time.monotonic() < until:
+            time.sleep(0.1)
+        time.sleep(2.2)  # two more looks
+        self.assertEqual(log.read_text().count("outputs stood still while inputs moved"), 1)
+        learned = client.statistics
+        self.assertEqual(learned.samples + learned.frozen, 400)
+
     def test_what_is_wrong_is_refused(self):
         self.start()
         client = Learner()

@@ -22,7 +22,7 @@ class Live(unittest.TestCase):
     def call(self, out: Path, only: str = "K1,K2,K3,K4") -> str:
         with contextlib.redirect_stderr(io.StringIO()) as said, \
              contextlib.redirect_stdout(io.StringIO()):  # fmt: skip
-            status = paper.main(["--quick", "--learner", "imle", "--only", only,
+            status = paper.main(["--quick", "--learner", "body", "--only", only,
                                  "--out", str(out)])  # fmt: skip
         self.assertEqual(status, 0, said.getvalue())
         return said.getvalue()

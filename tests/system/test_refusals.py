@@ -1,5 +1,5 @@
-"""Messages that reachd refuses are told: counted in the status, a line a second in the log, a finding
-of the doctor; and in lockstep answered, so that the sender does not wait for ever."""
+"""Messages that reachd refuses are told: counted in the status, a line a second in the log, a
+finding of the doctor; and in lockstep answered, so that the sender does not wait for ever."""
 
 import json
 import subprocess

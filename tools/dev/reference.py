@@ -10,10 +10,14 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from reach.message_fields import Message, parse_message  # noqa: E402
+
 MEND = ".venv/bin/python tools/dev/reference.py"
 
 # What a user calls, with what --help-options wants besides; None: it has no configuration.
@@ -26,6 +30,7 @@ PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reachctl": None,
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,
+    "reach-log": None,
     "reach-spy": None,
     "reach-lcm-setup": None,
 }
@@ -48,24 +53,6 @@ class Option:
     default: str | None
     unit: str
     range: str
-
-
-@dataclass
-class Field:
-    type: str
-    name: str
-    unit: str
-    meaning: str
-    constants: list[str] = field(default_factory=list)
-
-
-@dataclass
-class Message:
-    package: str
-    name: str
-    about: str
-    channels: list[str]
-    fields: list[Field]
 
 
 def said(build: Path, program: str, *arguments: str) -> str:
@@ -103,49 +90,6 @@ def changeable(root: Path = ROOT) -> list[str]:
     if not found:
         raise SourceError("daemon/config/reloadable.c: no list named live")
     return re.findall(r'"(.+?)"', found[1])
-
-
-# Units in comments: alone, before or after the meaning.
-_UNIT = r"rad/s|rad|us since the epoch|us|px|m/s|N m|bytes|m|s"
-
-
-def split_unit(comment: str) -> tuple[str, str]:
-    """(meaning, unit) of a field's comment."""
-    if found := re.fullmatch(rf"({_UNIT})(?:[,;] (.*))?", comment):
-        return found[2] or "", found[1]
-    if found := re.fullmatch(rf"(.*)[,;] ({_UNIT})( \(.*\))?", comment):
-        return found[1] + (found[3] or ""), found[2]
-    return comment, ""
-
-
-def _parse_line(line: str, pending: list[str], fields: list[Field]) -> None:
-    """One line within a struct: a comment about the next field, a constant or a field."""
-    code, _, comment = line.partition("//")
-    code, comment = code.strip(), comment.strip()
-    if not code:
-        pending[:] = [*pending, comment] if comment else []
-        return
-    names = re.findall(r"(\w+ = -?\d+)(?: ?[,;])", line)
-    if code.startswith("const ") or re.match(r"\w+ = ", code):
-        fields[-1].constants.append(", ".join(names) + (f" ({comment})" if comment else ""))
-        return
-    kind, name = code.rstrip(";").split(None, 1)
-    meaning, unit = split_unit(comment)
-    before = " ".join(pending)
-    fields.append(Field(kind, name, unit, ". ".join(x for x in (before.rstrip("."), meaning) if x)))
-    pending[:] = []
-
-
-def parse_message(text: str) -> Message:
-    head, _, rest = text.partition("\nstruct ")
-    about = " ".join(re.findall(r"^// ?(.+)$", head, re.M))
-    name, _, body = rest.partition("{")
-    fields: list[Field] = []
-    pending: list[str] = []
-    for line in body.rsplit("}", 1)[0].splitlines():
-        _parse_line(line, pending, fields)
-    channels = re.findall(r"[Cc]hannel ([A-Z][A-Z_]+)", about)
-    return Message(re.search(r"package (\w+);", head)[1], name.strip(), about, channels, fields)
 
 
 def messages(root: Path = ROOT) -> list[Message]:

@@ -83,6 +83,14 @@ setup_live() {
     .venv/bin/rerun analytics disable >/dev/null 2>&1 || true # nothing leaves its namespace anyway
 }
 
+# The optimiser of ./run tune, and what its report compares with: 230 MB on disk.
+setup_tune() {
+    .venv/bin/python -c 'import optuna, sklearn' 2>/dev/null && return 0
+    echo "run: installing optuna and scikit-learn into .venv" >&2
+    .venv/bin/python -m pip install -q --disable-pip-version-check -r requirements-tune.txt ||
+        setup_fail "pip failed; try by hand: .venv/bin/python -m pip install -r requirements-tune.txt"
+}
+
 setup_fail() {
     echo "run: $*" >&2
     exit 1

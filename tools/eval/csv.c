@@ -18,6 +18,7 @@ struct reader {
     gzFile file;
     size_t line; /* the one read last, from 1 */
     char text[LONGEST_LINE];
+    const char *separator; /* of the line, in words, where it is no comma; or NULL */
     double row[MOST_COLUMNS];
     size_t room; /* rows that `table` has memory for */
     struct csv_table *table;
@@ -67,6 +68,21 @@ static int next_line(struct reader *reader)
     return 1;
 }
 
+/* What separates the cells of a line instead of commas, or NULL. A comma in a line with semicolons
+ * is the decimal sign of some countries. */
+static const char *foreign_separator(const char *text)
+{
+    text += strspn(text, " \t");
+    if (strchr(text, ';'))
+        return "a semicolon";
+    if (strchr(text, ','))
+        return NULL;
+    if (strchr(text, '\t'))
+        return "a tab";
+    const char *space = strchr(text, ' ');
+    return space && space[strspn(space, " ")] ? "a space" : NULL;
+}
+
 /* Cuts the line at its commas. Returns the number of cells, at most MOST_COLUMNS + 1. */
 static int split(char *text, char *cells[MOST_COLUMNS])
 {
@@ -94,10 +110,21 @@ static bool is_number(const char *cell, double *value)
     return end[strspn(end, " \t")] == '\0';
 }
 
+static int fail_separator(struct reader *reader)
+{
+    char reason[80];
+
+    snprintf(reason, sizeof reason, "the separator is %s; wanted: a comma, and decimal points",
+             reader->separator);
+    return fail(reader, reason);
+}
+
 static int fail_cell(struct reader *reader, int column, const char *cell)
 {
     char reason[LONGEST_SHOWN + 80];
 
+    if (reader->separator)
+        return fail_separator(reader);
     snprintf(reason, sizeof reason, "column %d: '%.*s' is not a finite number", column + 1,
              LONGEST_SHOWN, cell);
     return fail(reader, reason);
@@ -112,6 +139,8 @@ static int take_width(struct reader *reader, int n_cells)
     char reason[160];
 
     if (n_cells != least && n_cells != most) {
+        if (reader->separator)
+            return fail_separator(reader);
         snprintf(reason, sizeof reason,
                  "%d columns%s; wanted: %d (%d inputs, %d outputs), or %d with the Jacobian",
                  n_cells > MOST_COLUMNS ? MOST_COLUMNS : n_cells,
@@ -133,6 +162,22 @@ static bool is_header(int n_cells, char *const *cells)
         if (is_number(cells[i], &ignored))
             return false;
     return true;
+}
+
+static int keep_names(struct reader *reader, char *const *cells)
+{
+    struct csv_table *table = reader->table;
+
+    table->names = calloc((size_t)table->n_columns, sizeof *table->names);
+    if (!table->names)
+        return fail(reader, "out of memory");
+    for (int i = 0; i < table->n_columns; i++) {
+        snprintf(table->names[i], CSV_NAME, "%s", cells[i]);
+        for (char *c = table->names[i]; *c; c++)
+            if (*c < ' ' || *c > '~') /* a terminal may not obey what a file holds */
+                *c = '?';
+    }
+    return 0;
 }
 
 static int append(struct reader *reader)
@@ -157,6 +202,8 @@ static int take_row(struct reader *reader, int n_cells, char *const *cells)
 {
     char reason[80];
 
+    if (n_cells != reader->table->n_columns && reader->separator)
+        return fail_separator(reader);
     if (n_cells != reader->table->n_columns) {
         snprintf(reason, sizeof reason, "%d columns, the lines before have %d", n_cells,
                  reader->table->n_columns);
@@ -170,16 +217,21 @@ static int take_row(struct reader *reader, int n_cells, char *const *cells)
 
 static int take_line(struct reader *reader)
 {
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* as spreadsheets write it */
     char *cells[MOST_COLUMNS];
+    char *text = reader->text;
 
-    if (reader->text[0] == '\0')
+    if (reader->line == 1 && strncmp(text, byte_order_mark, 3) == 0)
+        text += 3;
+    if (text[0] == '\0')
         return fail(reader, "the line is empty");
-    int n_cells = split(reader->text, cells);
+    reader->separator = foreign_separator(text);
+    int n_cells = split(text, cells);
     if (reader->line == 1) {
         if (take_width(reader, n_cells))
             return -1;
         if (is_header(n_cells, cells))
-            return 0;
+            return keep_names(reader, cells);
     }
     return take_row(reader, n_cells, cells);
 }
@@ -229,6 +281,7 @@ int csv_read(const char *path, int n_inputs, int n_outputs, struct csv_table *ta
 void csv_free(struct csv_table *table)
 {
     free(table->cells);
+    free(table->names);
     *table = (struct csv_table){0};
 }
 

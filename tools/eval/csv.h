@@ -8,19 +8,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+enum { CSV_NAME = 40 }; /* of a column, with its end; longer ones are cut */
+
 struct csv_table {
     size_t n_rows;
     int n_inputs;
     int n_outputs;
     bool has_jacobian;
     int n_columns;
-    double *cells; /* n_rows x n_columns, row-major */
+    double *cells;           /* n_rows x n_columns, row-major */
+    char (*names)[CSV_NAME]; /* of the columns, printable ASCII; NULL in a file without them */
 };
 
 /* Reads a file whose rows have n_inputs + n_outputs numbers, or n_inputs * n_outputs more.
  *   returns 0, and the caller frees the table by csv_free; or -1, with "file:line: reason" in
- *   `error`: a row of another length, a cell that is no finite number, an unreadable or damaged
- *   file, no row at all */
+ *   `error`: a row of another length, a cell that is no finite number, another separator than a
+ *   comma, an unreadable or damaged file, no row at all */
 int csv_read(const char *path, int n_inputs, int n_outputs, struct csv_table *table, char *error,
              size_t error_size);
 

@@ -11,6 +11,8 @@
 #include "tools/eval/model_file.h"
 #include "tools/eval/report.h"
 #include "tools/eval/request.h"
+#include "tools/eval/rows.h"
+#include "tools/eval/warnings.h"
 #include "tools/measure/learner_options.h"
 #include "tools/measure/output_file.h"
 
@@ -21,8 +23,11 @@ struct run {
     struct arena *arena;
     struct learner *learner;
     struct seeker seeker; /* of the body, with experts: body */
-    struct csv_table train[REQUEST_MOST];
-    struct csv_table sets[REQUEST_MOST];
+    struct csv_table *train, *sets;
+    struct health health;
+    const char *input_names[LEARNER_MAX_INPUTS];
+    struct warnings warnings;
+    struct rows rows;
     int file;   /* of the sample that is learned next */
     size_t row; /* in that file */
     struct durations updates;
@@ -44,8 +49,13 @@ static int read_config(struct run *run)
     const char *shipped =
         learner_options_shipped(request->kind, request->n_inputs, request->n_outputs);
 
-    if (request->n_files == 0 && shipped)
+    if (request->n_files == 0 && shipped) {
         request->files[request->n_files++] = shipped;
+        warnings_add(&run->warnings,
+                     "no --config: %s was taken by default for %d inputs and %d outputs, joints "
+                     "in rad; does it fit?",
+                     strrchr(shipped, '/') + 1, request->n_inputs, request->n_outputs);
+    }
     return learner_options_load(&(struct learner_sources){request->kind, request->n_inputs,
                                                           request->n_outputs, request->files,
                                                           request->n_files, request->params,
@@ -65,10 +75,13 @@ static int read_tables(struct run *run)
     char reason[120];
     size_t rows = 0;
 
+    run->train = calloc((size_t)request->n_train + 1, sizeof *run->train);
+    run->sets = calloc((size_t)request->n_sets + 1, sizeof *run->sets);
+    if (!run->train || !run->sets)
+        return fail(run, "the files", "out of memory");
     for (int i = 0; i < request->n_train; i++) {
         if (read_table(run, request->train[i], &run->train[i]))
             return -1;
-        run->report.train_rows[i] = run->train[i].n_rows;
         rows += run->train[i].n_rows;
     }
     for (int i = 0; i < request->n_sets; i++) {
@@ -94,7 +107,9 @@ static int check_outputs(struct run *run)
     if (strcmp(request->json, "-") != 0 &&
         output_check(request->json, run->error, sizeof run->error))
         return -1;
-    return request->save ? output_check(request->save, run->error, sizeof run->error) : 0;
+    if (request->save && output_check(request->save, run->error, sizeof run->error))
+        return -1;
+    return request->rows ? output_check(request->rows, run->error, sizeof run->error) : 0;
 }
 
 static int create_learner(struct run *run)
@@ -129,10 +144,11 @@ static void show_progress(struct run *run, size_t done, const char *what)
                 run->seeker.report.why);
 }
 
-static void clear_progress(const struct run *run)
+static void clear_progress(struct run *run)
 {
     if (run->last_progress)
         fputs("\r\033[K", stderr);
+    run->last_progress = 0;
 }
 
 static bool has_body(const struct run *run)
@@ -148,30 +164,40 @@ static void learn_next(struct run *run)
     }
     const struct csv_table *table = &run->train[run->file];
     const double *z = csv_input(table, run->row);
-    const double *x = csv_output(table, run->row);
+    const double *x = csv_output(table, run->row++);
+    bool sound = health_look(&run->health, z, x);
+    if (!sound && !run->request.keeps_frozen)
+        return;
     int64_t start = durations_clock();
-    learner_update(run->learner, z, x);
+    health_count(&run->health, learner_update(run->learner, z, x));
     durations_add(&run->updates, start);
     if (has_body(run)) /* no part of the update: beside a robot it has a process of its own */
         seeker_look(&run->seeker, run->learner);
-    run->row++;
 }
 
-static void score_sets(struct run *run, struct report_result *result)
+static int score_sets(struct run *run, struct report_result *result)
 {
     const struct request *request = &run->request;
+    const bool is_last = run->report.n_results == request->n_at - 1;
+    const struct score_desk desk = {run->learner, &run->predictions,
+                                    request->rows && is_last ? &run->rows : NULL, &run->health};
 
+    result->sets = calloc((size_t)request->n_sets + 1, sizeof *result->sets);
+    if (!result->sets)
+        return fail(run, "the report", "out of memory");
     for (int i = 0; i < request->n_sets; i++) {
         struct report_set *set = &result->sets[i];
-        show_progress(run, result->at, request->sets[i].name);
+        const char *name = request->sets[i].name;
+        show_progress(run, result->at, name);
         if (request->sets[i].is_track)
-            set->track = score_track(run->learner, &run->sets[i], &run->predictions);
+            set->track = score_track(&desk, name, &run->sets[i]);
         else
-            set->test = score_test(run->learner, &run->sets[i], &run->predictions);
+            set->test = score_test(&desk, name, &run->sets[i]);
     }
+    return 0;
 }
 
-static void evaluate(struct run *run)
+static int evaluate(struct run *run)
 {
     const struct request *request = &run->request;
     size_t done = 0;
@@ -183,10 +209,14 @@ static void evaluate(struct run *run)
             show_progress(run, done, "samples");
         }
         result->at = done;
-        score_sets(run, result);
+        if (score_sets(run, result))
+            return -1;
+        result->frozen = run->health.frozen;
         result->statistics = learner_get_statistics(run->learner);
         result->has_body = has_body(run);
         result->seeker = run->seeker;
+        result->change = learner_get_body_change(run->learner);
+        result->has_rest = learner_not_rigid(run->learner, result->not_rigid) == 0;
         result->update = durations_summarise(&run->updates);
         result->predict = durations_summarise(&run->predictions);
         durations_clear(&run->updates);
@@ -196,6 +226,29 @@ static void evaluate(struct run *run)
         if (!request->quiet && strcmp(request->json, "-") != 0)
             report_print(request, result, stdout);
     }
+    return 0;
+}
+
+static void look_after_health(struct run *run)
+{
+    const struct csv_table *first = run->request.n_train > 0 ? &run->train[0] : NULL;
+
+    health_init(&run->health, &run->config, 0);
+    if (!first || !first->names)
+        return;
+    for (int i = 0; i < run->request.n_inputs; i++)
+        run->input_names[i] = first->names[i];
+    run->health.names = run->input_names;
+}
+
+static void warn(struct run *run)
+{
+    const struct learner_statistics statistics = learner_get_statistics(run->learner);
+
+    clear_progress(run);
+    warnings_of_health(&run->warnings, &run->health, &statistics);
+    for (int i = 0; i < run->request.n_sets; i++)
+        warnings_of_set(&run->warnings, &run->health, run->request.sets[i].path, &run->sets[i]);
 }
 
 static int write_report(struct run *run)
@@ -218,7 +271,17 @@ static int carry_out(struct run *run)
         return -1;
     run->report.request = &run->request;
     run->report.config = &run->config;
-    evaluate(run);
+    run->report.train = run->train;
+    run->report.warnings = &run->warnings;
+    look_after_health(run);
+    if (run->request.rows && rows_begin(&run->rows, run->request.rows, run->request.n_outputs,
+                                        run->error, sizeof run->error))
+        return -1;
+    if (evaluate(run))
+        return -1;
+    warn(run);
+    if (run->request.rows && rows_end(&run->rows, run->error, sizeof run->error))
+        return -1;
     if (run->request.save &&
         model_file_save(run->request.save, run->learner, run->error, sizeof run->error))
         return -1;
@@ -227,10 +290,14 @@ static int carry_out(struct run *run)
 
 static void free_run(struct run *run)
 {
-    for (int i = 0; i < REQUEST_MOST; i++) {
+    for (int i = 0; run->train && i < run->request.n_train; i++)
         csv_free(&run->train[i]);
+    for (int i = 0; run->sets && i < run->request.n_sets; i++)
         csv_free(&run->sets[i]);
-    }
+    for (int i = 0; i < run->report.n_results + 1 && i < REQUEST_MOST_COUNTS; i++)
+        free(run->report.results[i].sets);
+    free(run->train);
+    free(run->sets);
     durations_free(&run->updates);
     durations_free(&run->predictions);
     arena_destroy(run->arena);

@@ -9,6 +9,7 @@
 #include "learner/finder/seeker.h"
 #include "tools/eval/request.h"
 #include "tools/eval/score.h"
+#include "tools/eval/warnings.h"
 
 struct report_set {
     bool is_track;
@@ -20,18 +21,23 @@ struct report_set {
 struct report_result {
     size_t at;
     struct learner_statistics statistics;
-    bool has_body;                        /* experts: body; then */
-    struct seeker seeker;                 /* what was found of it */
-    struct durations_summary update;      /* of the updates since the result before */
-    struct durations_summary predict;     /* of this result's predictions */
-    struct report_set sets[REQUEST_MOST]; /* in the order of the request's */
+    size_t frozen;                     /* samples whose outputs stood still while inputs moved */
+    bool has_body;                     /* experts: body; then */
+    struct seeker seeker;              /* what was found of it */
+    struct learner_body_change change; /* what has changed since */
+    bool has_rest;                     /* there is a body; then */
+    double not_rigid[LEARNER_MAX_OUTPUTS]; /* what no rigid chain explains */
+    struct durations_summary update;       /* of the updates since the result before */
+    struct durations_summary predict;      /* of this result's predictions */
+    struct report_set *sets;               /* in the order of the request's */
 };
 
 struct report {
     const struct request *request;
     const struct learner_config *config;
-    size_t memory;                   /* bytes of the learner */
-    size_t train_rows[REQUEST_MOST]; /* of each file */
+    size_t memory;                 /* bytes of the learner */
+    const struct csv_table *train; /* the request's files */
+    const struct warnings *warnings;
     int n_results;
     struct report_result results[REQUEST_MOST_COUNTS];
 };

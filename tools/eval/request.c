@@ -49,6 +49,33 @@ static int take_learner(void *user, const char *text, char *error, size_t error_
     return wrong(error, error_size, "unknown learner '%s'", text);
 }
 
+/* Room for one more entry; `list` is the pointer to an array of entries of that size. */
+static int make_room(void **list, int n, int *room, size_t size, char *error, size_t error_size)
+{
+    int more = *room > 0 ? 2 * *room : 16;
+
+    if (n < *room)
+        return 0;
+    void *larger = realloc(*list, (size_t)more * size);
+    if (!larger)
+        return wrong(error, error_size, "out of memory");
+    *list = larger;
+    *room = more;
+    return 0;
+}
+
+static int add_train(struct request *request, char *path, char *error, size_t error_size)
+{
+    void *list = request->train;
+
+    if (make_room(&list, request->n_train, &request->train_room, sizeof *request->train, error,
+                  error_size))
+        return -1;
+    request->train = list;
+    request->train[request->n_train++] = path;
+    return 0;
+}
+
 static int take_train(void *user, const char *text, char *error, size_t error_size)
 {
     struct request *request = user;
@@ -60,11 +87,10 @@ static int take_train(void *user, const char *text, char *error, size_t error_si
             free(path);
             return wrong(error, error_size, "a file's name is missing");
         }
-        if (request->n_train == REQUEST_MOST) {
+        if (add_train(request, path, error, error_size)) {
             free(path);
-            return wrong(error, error_size, "more than %d", REQUEST_MOST);
+            return -1;
         }
-        request->train[request->n_train++] = path;
         if (text[length] == '\0')
             return 0;
         text += length + 1;
@@ -107,8 +133,11 @@ static int take_set(struct request *request, const char *text, bool is_track, ch
     for (int i = 0; i < request->n_sets; i++)
         if (request->sets[i].is_track == is_track && strcmp(request->sets[i].name, set.name) == 0)
             return wrong(error, error_size, "the name %s is given twice", set.name);
-    if (request->n_sets == REQUEST_MOST)
-        return wrong(error, error_size, "more than %d of --test and --track", REQUEST_MOST);
+    void *list = request->sets;
+    if (make_room(&list, request->n_sets, &request->sets_room, sizeof *request->sets, error,
+                  error_size))
+        return -1;
+    request->sets = list;
     request->sets[request->n_sets++] = set;
     return 0;
 }
@@ -133,7 +162,7 @@ static const struct argument_row rows[] = {
                   "parameters, YAML; repeated: a later file over an earlier one. Without it, what "
                   "ships for robots of that kind (d = 7 or 4, D = 3)"),
     ARGUMENT_LIST("param", 0, "NAME=VALUE ...", struct request, params, n_params, REQUEST_MOST,
-                  "parameters, over the files; --help-options lists them"),
+                  "parameters, over the files, a list as 1,2,3; --help-options lists them"),
     ARGUMENT_CALL("train", "FILE[,FILE] ...", take_train, "samples to learn"),
     ARGUMENT_CALL("at", "N,N,...", take_at,
                   "numbers of samples after which to measure; default: after all"),
@@ -142,11 +171,17 @@ static const struct argument_row rows[] = {
                   "a smooth trajectory: follow the solution nearest to the last true output"),
     ARGUMENT_TEXT("json", 0, "FILE", struct request, json,
                   "the report, keys explained in docs/evaluation.md; -: standard output"),
+    ARGUMENT_TEXT("rows", 0, "FILE", struct request, rows,
+                  "CSV of every row of --test and --track: truth and predictions, as the last "
+                  "measurement finds them"),
     ARGUMENT_TEXT("save", 0, "FILE", struct request, save,
                   "the learner's state after the last measurement"),
     ARGUMENT_TEXT("load", 0, "FILE", struct request, load,
                   "begin with such a state; needs the same parameters"),
-    ARGUMENT_ON("quiet", 0, struct request, quiet, "neither progress nor a table"),
+    ARGUMENT_ON("keep-frozen", 0, struct request, keeps_frozen,
+                "learn also samples whose outputs stand still while inputs move"),
+    ARGUMENT_ON("quiet", 0, struct request, quiet,
+                "neither progress nor a table; warnings are still told"),
     ARGUMENT_ON("help-options", 0, struct request, lists_options,
                 "list every parameter for this --learner, --inputs and --outputs"),
     ARGUMENT_END,
@@ -157,7 +192,8 @@ static const struct command_line line = {
     .usage = "reach-eval --learner KIND --inputs d --outputs D [--config FILE] [--param NAME=VALUE "
              "...]\n"
              "                  --train FILE[,FILE...] [--at N,N,...] [--test NAME=FILE ...]\n"
-             "                  [--track NAME=FILE ...] --json FILE [--save FILE] [--load FILE]",
+             "                  [--track NAME=FILE ...] --json FILE [--rows FILE]\n"
+             "                  [--save FILE] [--load FILE]",
     .about = "Teaches a learner the samples of CSV files, in order, and measures it on others.\n\n"
              "Files are plain or gzip; a row is d inputs, D outputs and, where a file carries it,\n"
              "the Jacobian (D x d, row-major); the first line may hold names.",
@@ -202,6 +238,8 @@ int request_read(int argc, char **argv, struct request *request)
 void request_free(struct request *request)
 {
     for (int i = 0; i < request->n_train; i++)
-        free((void *)(uintptr_t)request->train[i]);
-    request->n_train = 0;
+        free(request->train[i]);
+    free(request->train);
+    free(request->sets);
+    *request = (struct request){0};
 }

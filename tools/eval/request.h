@@ -8,7 +8,7 @@
 #include "learner/learner.h"
 
 enum {
-    REQUEST_MOST = 64,         /* of each thing that may be given repeatedly */
+    REQUEST_MOST = 64,         /* configuration files, parameters */
     REQUEST_MOST_COUNTS = 512, /* of --at: a curve wants many */
 };
 
@@ -19,7 +19,7 @@ struct request_set {
     bool is_track;
 };
 
-/* Texts are those of argv; `train` entries belong to the request. */
+/* Texts are those of argv; what `train` and `sets` point to belongs to the request. */
 struct request {
     enum learner_kind kind;
     bool has_kind;
@@ -29,16 +29,18 @@ struct request {
     const char *files[REQUEST_MOST];
     int n_params;
     const char *params[REQUEST_MOST];
-    int n_train;
-    const char *train[REQUEST_MOST];
+    int n_train, train_room;
+    char **train;
     int n_at; /* 0: after all samples */
     size_t at[REQUEST_MOST_COUNTS];
-    int n_sets;
-    struct request_set sets[REQUEST_MOST];
+    int n_sets, sets_room;
+    struct request_set *sets;
     const char *json; /* path, or "-" for standard output */
+    const char *rows; /* path for the predictions of each row, or NULL */
     const char *save; /* or NULL */
     const char *load; /* or NULL */
     bool quiet;
+    bool keeps_frozen;
     bool lists_options;
 };
 

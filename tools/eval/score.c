@@ -1,32 +1,63 @@
 #include "tools/eval/score.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
+#include "tools/measure/quantiles.h"
+
+/* Errors of one kind of answer, all that a table may have. */
 struct errors {
     size_t n;
     double squares[LEARNER_MAX_OUTPUTS];
+    double *distance;
 };
+
+static double *room_for(size_t n)
+{
+    double *numbers = calloc(n, sizeof *numbers);
+
+    if (!numbers) {
+        fprintf(stderr, "reach-eval: out of memory for the errors of %zu rows\n", n);
+        exit(EXIT_FAILURE);
+    }
+    return numbers;
+}
+
+static struct errors make_errors(const struct csv_table *table)
+{
+    return (struct errors){.distance = room_for(table->n_rows)};
+}
 
 static void add_error(struct errors *errors, int n_outputs, const double *value,
                       const double *truth)
 {
-    errors->n++;
-    for (int i = 0; i < n_outputs; i++)
-        errors->squares[i] += (value[i] - truth[i]) * (value[i] - truth[i]);
-}
-
-static struct score_rmse rmse_of(const struct errors *errors, int n_outputs)
-{
-    struct score_rmse rmse = {.n = errors->n, .mean = NAN};
     double sum = 0;
 
     for (int i = 0; i < n_outputs; i++) {
-        rmse.component[i] = errors->n > 0 ? sqrt(errors->squares[i] / (double)errors->n) : NAN;
-        sum += rmse.component[i];
+        double square = (value[i] - truth[i]) * (value[i] - truth[i]);
+        errors->squares[i] += square;
+        sum += square;
     }
-    rmse.mean = sum / n_outputs;
-    return rmse;
+    errors->distance[errors->n++] = sqrt(sum);
+}
+
+/* Frees the errors. */
+static struct score_error summarise_errors(struct errors *errors, int n_outputs)
+{
+    struct score_error error = {.n = errors->n, .mean = NAN};
+    double sum = 0;
+
+    for (int i = 0; i < n_outputs; i++) {
+        error.rmse[i] = errors->n > 0 ? sqrt(errors->squares[i] / (double)errors->n) : NAN;
+        sum += error.rmse[i];
+    }
+    error.mean = sum / n_outputs;
+    quantiles_sort(errors->distance, errors->n);
+    error.median = quantile(errors->distance, errors->n, 0.5);
+    error.p95 = quantile(errors->distance, errors->n, 0.95);
+    free(errors->distance);
+    return error;
 }
 
 static double squared_distance(int n, const double *a, const double *b)
@@ -67,7 +98,7 @@ static struct ratios make_ratios(const struct csv_table *table)
     struct ratios ratios = {0};
 
     if (table->has_jacobian)
-        ratios.value = calloc(table->n_rows, sizeof *ratios.value);
+        ratios.value = room_for(table->n_rows);
     return ratios;
 }
 
@@ -86,14 +117,6 @@ static void add_ratio(struct ratios *ratios, const struct csv_table *table, size
         ratios->value[ratios->n++] = sqrt(squared_distance(n, solution->jacobian, truth) / size);
 }
 
-static int compare(const void *a, const void *b)
-{
-    double left = *(const double *)a;
-    double right = *(const double *)b;
-
-    return (left > right) - (left < right);
-}
-
 /* Frees the ratios. */
 static struct score_jacobian summarise_ratios(struct ratios *ratios)
 {
@@ -102,7 +125,7 @@ static struct score_jacobian summarise_ratios(struct ratios *ratios)
     double sum = 0;
 
     if (n > 0) {
-        qsort(ratios->value, n, sizeof *ratios->value, compare);
+        quantiles_sort(ratios->value, n);
         jacobian.median = 0.5 * (ratios->value[(n - 1) / 2] + ratios->value[n / 2]);
         for (size_t i = 0; i < n; i++)
             sum += ratios->value[i];
@@ -112,84 +135,144 @@ static struct score_jacobian summarise_ratios(struct ratios *ratios)
     return jacobian;
 }
 
-static int timed_predict(struct learner *learner, const double *z,
-                         struct learner_prediction *prediction, struct durations *durations)
-{
-    int64_t start = durations_clock();
-    int n = learner_predict(learner, z, prediction);
+/* Errors in units of what was stated of them; all that a table may have. */
+struct shares {
+    size_t n;
+    double *value;
+};
 
-    durations_add(durations, start);
-    return n;
+static void add_shares(struct shares *shares, int n_outputs,
+                       const struct learner_solution *solution, const double *truth)
+{
+    for (int i = 0; i < n_outputs; i++) {
+        double deviation = sqrt(solution->variance[i]);
+        if (deviation > 0 && isfinite(deviation))
+            shares->value[shares->n++] = fabs(solution->value[i] - truth[i]) / deviation;
+    }
 }
 
-struct score_test score_test(struct learner *learner, const struct csv_table *table,
-                             struct durations *durations)
+/* Frees the shares. */
+static struct score_calibration summarise_shares(struct shares *shares)
+{
+    struct score_calibration calibration = {.n = shares->n};
+
+    quantiles_sort(shares->value, shares->n);
+    calibration.median = quantile(shares->value, shares->n, 0.5);
+    calibration.p95 = quantile(shares->value, shares->n, 0.95);
+    free(shares->value);
+    return calibration;
+}
+
+/* What tests and tracks gather alike. */
+struct gathered {
+    const struct csv_table *table;
+    struct errors closest, strongest;
+    struct shares shares;
+    struct ratios ratios;
+    size_t n_solutions, n_unanswered;
+};
+
+static struct gathered begin(const struct csv_table *table)
+{
+    return (struct gathered){
+        .table = table,
+        .closest = make_errors(table),
+        .strongest = make_errors(table),
+        .shares.value = room_for(table->n_rows * (size_t)table->n_outputs),
+        .ratios = make_ratios(table),
+    };
+}
+
+static void predict(const struct score_desk *desk, const double *z, struct gathered *gathered,
+                    struct learner_prediction *prediction)
+{
+    int64_t start = durations_clock();
+    int n = learner_predict(desk->learner, z, prediction);
+
+    durations_add(desk->durations, start);
+    health_count_solutions(desk->health, n);
+    gathered->n_solutions += (size_t)n;
+    gathered->n_unanswered += n == 0;
+}
+
+/* Takes the answers to one row, of which there is one at least. Returns the closest. */
+static const struct learner_solution *gather(struct gathered *gathered, const double *x,
+                                             const struct learner_prediction *prediction)
+{
+    const int D = gathered->table->n_outputs;
+    const struct learner_solution *closest = nearest(prediction, D, x);
+
+    add_error(&gathered->closest, D, closest->value, x);
+    add_error(&gathered->strongest, D, prediction->solution[0].value, x);
+    add_shares(&gathered->shares, D, closest, x);
+    return closest;
+}
+
+struct score_test score_test(const struct score_desk *desk, const char *name,
+                             const struct csv_table *table)
 {
     static struct learner_prediction prediction; /* too large for some stacks */
     struct score_test score = {.n_rows = table->n_rows};
-    struct errors closest = {0};
-    struct errors strongest = {0};
-    struct errors single = {0};
-    struct ratios ratios = make_ratios(table);
+    struct gathered gathered = begin(table);
+    struct errors single = make_errors(table);
     struct learner_solution average;
-    size_t n_solutions = 0;
-    int D = table->n_outputs;
+    const int D = table->n_outputs;
 
     for (size_t row = 0; row < table->n_rows; row++) {
         const double *z = csv_input(table, row);
         const double *x = csv_output(table, row);
-        int n = timed_predict(learner, z, &prediction, durations);
-        score.n_with[n]++;
-        n_solutions += (size_t)n;
-        if (learner_predict_single(learner, z, &average))
+        struct rows_entry entry = {.set = name, .row = row, .truth = x};
+        predict(desk, z, &gathered, &prediction);
+        score.n_with[prediction.n_solutions]++;
+        if (learner_predict_single(desk->learner, z, &average)) {
             add_error(&single, D, average.value, x);
-        if (n == 0) {
-            score.n_unanswered++;
-            continue;
+            entry.single = &average;
         }
-        const struct learner_solution *best = nearest(&prediction, D, x);
-        add_error(&closest, D, best->value, x);
-        add_error(&strongest, D, prediction.solution[0].value, x);
-        add_ratio(&ratios, table, row, best);
+        if (prediction.n_solutions > 0) {
+            entry.closest = gather(&gathered, x, &prediction);
+            add_ratio(&gathered.ratios, table, row, entry.closest);
+        }
+        rows_add(desk->rows, &entry, &prediction);
     }
-    score.closest = rmse_of(&closest, D);
-    score.strongest = rmse_of(&strongest, D);
-    score.single = rmse_of(&single, D);
-    score.mean_solutions = (double)n_solutions / (double)table->n_rows;
-    score.jacobian = summarise_ratios(&ratios);
+    score.n_unanswered = gathered.n_unanswered;
+    score.closest = summarise_errors(&gathered.closest, D);
+    score.strongest = summarise_errors(&gathered.strongest, D);
+    score.single = summarise_errors(&single, D);
+    score.calibration = summarise_shares(&gathered.shares);
+    score.mean_solutions = (double)gathered.n_solutions / (double)table->n_rows;
+    score.jacobian = summarise_ratios(&gathered.ratios);
     return score;
 }
 
-struct score_track score_track(struct learner *learner, const struct csv_table *table,
-                               struct durations *durations)
+struct score_track score_track(const struct score_desk *desk, const char *name,
+                               const struct csv_table *table)
 {
     static struct learner_prediction prediction;
     struct score_track score = {.n_rows = table->n_rows - 1};
-    struct errors followed = {0};
-    struct errors closest = {0};
-    struct ratios ratios = make_ratios(table);
-    size_t n_solutions = 0;
-    int D = table->n_outputs;
+    struct gathered gathered = begin(table);
+    struct errors followed = make_errors(table);
+    const int D = table->n_outputs;
 
     for (size_t row = 1; row < table->n_rows; row++) {
         const double *x = csv_output(table, row);
-        int n = timed_predict(learner, csv_input(table, row), &prediction, durations);
-        n_solutions += (size_t)n;
-        if (n == 0) {
-            score.n_unanswered++;
-            continue;
+        struct rows_entry entry = {.set = name, .row = row, .truth = x};
+        predict(desk, csv_input(table, row), &gathered, &prediction);
+        if (prediction.n_solutions > 0) {
+            entry.closest = gather(&gathered, x, &prediction);
+            entry.followed = nearest(&prediction, D, csv_output(table, row - 1));
+            add_error(&followed, D, entry.followed->value, x);
+            add_ratio(&gathered.ratios, table, row, entry.followed);
+            score.n_wrong += entry.followed != entry.closest;
         }
-        const struct learner_solution *chosen = nearest(&prediction, D, csv_output(table, row - 1));
-        const struct learner_solution *best = nearest(&prediction, D, x);
-        add_error(&followed, D, chosen->value, x);
-        add_error(&closest, D, best->value, x);
-        add_ratio(&ratios, table, row, chosen);
-        score.n_wrong += chosen != best;
+        rows_add(desk->rows, &entry, &prediction);
     }
-    score.followed = rmse_of(&followed, D);
-    score.closest = rmse_of(&closest, D);
+    score.n_unanswered = gathered.n_unanswered;
+    score.followed = summarise_errors(&followed, D);
+    score.closest = summarise_errors(&gathered.closest, D);
+    score.strongest = summarise_errors(&gathered.strongest, D);
+    score.calibration = summarise_shares(&gathered.shares);
     score.wrong_branch = (double)score.n_wrong / (double)score.n_rows;
-    score.mean_solutions = (double)n_solutions / (double)score.n_rows;
-    score.jacobian = summarise_ratios(&ratios);
+    score.mean_solutions = (double)gathered.n_solutions / (double)score.n_rows;
+    score.jacobian = summarise_ratios(&gathered.ratios);
     return score;
 }

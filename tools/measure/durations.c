@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "tools/measure/quantiles.h"
+
 int64_t durations_clock(void)
 {
     struct timespec now;
@@ -35,21 +37,6 @@ void durations_add(struct durations *durations, int64_t start)
     durations->us[durations->n++] = 1e-3 * (double)(end - start);
 }
 
-static int compare(const void *a, const void *b)
-{
-    double left = *(const double *)a;
-    double right = *(const double *)b;
-
-    return (left > right) - (left < right);
-}
-
-static double quantile(const struct durations *sorted, double share)
-{
-    double rank = ceil(share * (double)sorted->n);
-
-    return sorted->us[rank < 1 ? 0 : (size_t)rank - 1];
-}
-
 struct durations_summary durations_summarise(struct durations *durations)
 {
     struct durations_summary summary = {durations->n, NAN, NAN, NAN, NAN, NAN};
@@ -57,13 +44,13 @@ struct durations_summary durations_summarise(struct durations *durations)
 
     if (durations->n == 0)
         return summary;
-    qsort(durations->us, durations->n, sizeof *durations->us, compare);
+    quantiles_sort(durations->us, durations->n);
     for (size_t i = 0; i < durations->n; i++)
         sum += durations->us[i];
     summary.mean = sum / (double)durations->n;
-    summary.p50 = quantile(durations, 0.5);
-    summary.p99 = quantile(durations, 0.99);
-    summary.p999 = quantile(durations, 0.999);
+    summary.p50 = quantile(durations->us, durations->n, 0.5);
+    summary.p99 = quantile(durations->us, durations->n, 0.99);
+    summary.p999 = quantile(durations->us, durations->n, 0.999);
     summary.max = durations->us[durations->n - 1];
     return summary;
 }

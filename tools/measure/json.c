@@ -97,6 +97,12 @@ void json_number(struct json *json, const char *key, double value)
     put_number(json->out, value);
 }
 
+void json_integer(struct json *json, const char *key, int64_t value)
+{
+    begin_entry(json, key);
+    fprintf(json->out, "%lld", (long long)value);
+}
+
 void json_count(struct json *json, const char *key, size_t value)
 {
     begin_entry(json, key);

@@ -16,6 +16,7 @@ import numpy as np
 from . import body_accuracy
 from .body_studies import body_studies
 from .command_line import Parser
+from .curves import run as curves
 from .evaluation import EvaluationError, reach_eval
 from .programs import ROOT
 from .progress import Progress
@@ -103,6 +104,11 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
         f" on a body: all ({bodies[0]}), or of {', '.join(bodies[1:])}",
     )
     parser.add_argument(
+        "--curves",
+        action="store_true",
+        help="draw errors of four learners against samples instead: curves.svg",
+    )
+    parser.add_argument(
         "--param",
         action="append",
         default=[],
@@ -118,12 +124,16 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--commit", metavar="HASH", help="of a body: draw the seeds from this hash; default: HEAD's"
     )
-    parser.add_argument("--jobs", type=int, default=2, help="of a body: draws at once; default 2")
+    parser.add_argument(
+        "--jobs", type=int, default=2, help="of a body and of curves: draws at once; default 2"
+    )
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
     options = parser.parse_args(arguments)
     options.body = any(name in bodies for name in options.only)
     if options.body and not all(name in bodies for name in options.only):
         parser.error("studies of a body run on their own")
+    if options.curves and (options.only or options.param):
+        parser.error("--curves has no studies and no parameters to choose")
     if options.draws is None:
         options.draws = (2 if options.quick else 10) if options.body else 5
     if options.draws < 1 or options.jobs < 1:
@@ -134,6 +144,9 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
 def main(arguments: list[str] | None = None) -> int:
     options = parse(arguments)
     try:
+        if options.curves:
+            print(f"accuracy: {curves.run(options)} shows them, curves.json beside it has them")
+            return 0
         (body_accuracy.run if options.body else run)(options)
     except (EvaluationError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)

@@ -14,6 +14,8 @@ from .studies import Bar, Files, rmse, write
 
 TUBE = "kobian_tube_samples.csv.gz"
 EYES = ("learner-kobian-offline-body.yaml", "learner-kobian-offline.yaml")
+# What S1 and S2 go through together, in the units of COMPONENTS: mean of the ten robots.
+RANGES = (39.1, 50.3, 44.3)
 COMPONENTS = (("yaw", "deg"), ("pitch", "deg"), ("disparity", "px"))
 
 
@@ -78,6 +80,13 @@ def robot_bars() -> list[Bar]:
             for what, test, n in at for k, (name, unit) in enumerate(COMPONENTS)]  # fmt: skip
 
 
+def k1_bars() -> list[Bar]:
+    """Of K1 of the paper: 1,000 samples, percent of the range; half of what polynomials had."""
+    wanted = {"S1": (0.0175, 0.0365, 0.0505), "S2": (0.026, 0.07, 0.101)}
+    return [Bar(f"{test}, {name}", 1000, component(test, k, RANGES[k] / 100), wanted[test][k], "%")
+            for test in wanted for k, (name, _) in enumerate(COMPONENTS)]  # fmt: skip
+
+
 def data_studies(data: Path | None) -> list[BodyStudy]:
     where = data or Path()
     return [
@@ -90,5 +99,8 @@ def data_studies(data: Path | None) -> list[BodyStudy]:
                   partial(make_tube, where), tube_bars(), files=EYES, wants_data=True),
         BodyStudy("body_robots", "reference data of Kobian-like robots, 1 px of noise",
                   (4, 3), partial(make_robot, where), robot_bars(), ("noise_share=0.1",),
+                  files=EYES, wants_data=True, numbered=True),
+        BodyStudy("body_k1", "the same, 500 of hand and 500 of tool, % of the range", (4, 3),
+                  partial(make_robot, where), k1_bars(), ("noise_share=0.1",),
                   files=EYES, wants_data=True, numbered=True),
     ]  # fmt: skip

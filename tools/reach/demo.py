@@ -8,21 +8,22 @@ import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, programs, recording, report, summary
+from . import metrics, pictures, recording, report, summary
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .experiment import Experiment, ExperimentError
 from .messages import ROOT
 from .processes import ProcessDiedError
+from .programs import LEARNERS, OURS
 from .progress import Progress
 from .record import read_log
 from .recorder import ALL_BUT_IMAGES
 from .session import Stop, session
 
 TOOL = 1  # the simulator's first tool, the rubber tube
-SAMPLES = (30, 10)  # with the hand and with the tool
-SAMPLES_WITHOUT_BODY = (150, 150)
-OVERLAYS = {"polynomial": programs.POLYNOMIAL, **programs.LEARNERS}
+# Training samples with the hand and with the tool, and tests.
+SIZES = (30, 10, 20)
+SIZES_WITHOUT_BODY = (150, 150, 50)
 BABBLE_SECONDS = 1.8  # robot time of a sample, about; for the time left
 
 
@@ -36,16 +37,18 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
         help="training samples with the hand; default 30, without a body 150")  # fmt: skip
     add("--tool-samples", type=_count,
         help="training samples with the tool; default 10, else as --samples")  # fmt: skip
-    add("--tests", type=_count, default=50, help="unseen configurations to test with; default 50")
+    add("--tests", type=_count,
+        help="unseen configurations to test with; default 20, without a body 50")  # fmt: skip
     add("--period", type=float, default=4.0, help="seconds for each target; default %(default)g")
-    add("--experts", choices=("body", *OVERLAYS), default="body",
+    add("--experts", choices=(OURS, *LEARNERS), default=OURS,
         help="kind of experts, or lwpr for the rival learner; default %(default)s")  # fmt: skip
     add("--realtime", action="store_true", help="run in real time instead of as fast as possible")
     add("--keep-images", action="store_true", help="log the cameras too (some 100 kB a pair)")
     options = parser.parse_args(arguments)
-    hand, tool = SAMPLES if options.experts == "body" else SAMPLES_WITHOUT_BODY
+    hand, tool, tests = SIZES if options.experts == OURS else SIZES_WITHOUT_BODY
     options.tool_samples = options.tool_samples or options.samples or tool
     options.samples = options.samples or hand
+    options.tests = options.tests or tests
     return options
 
 
@@ -84,7 +87,7 @@ def weights(options: argparse.Namespace) -> dict[str, float]:
 
 def run(options: argparse.Namespace, phases: list[dict]) -> None:
     """Performs the experiment; each phase that is complete is noted in `phases`."""
-    learner = [OVERLAYS[options.experts]] if options.experts in OVERLAYS else []
+    learner = [LEARNERS[options.experts]] if options.experts != OURS else []
     with session(
         options.out, Stop(), seed=options.seed, configurations=learner,
         realtime=options.realtime, channels=".*" if options.keep_images else ALL_BUT_IMAGES,

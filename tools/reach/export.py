@@ -1,155 +1,35 @@
 """Writes what a log holds in the formats of other tools."""
 
 import argparse
-import base64
-import csv
-import json
+import re
 import sys
+from contextlib import ExitStack
 from pathlib import Path
-
-import numpy as np
 
 from . import recording
 from .command_line import Parser
-from .event_log import events
-from .messages import CHANNELS, bot_core
-from .record import Record, read_log
-
-IMAGES = "STEREO_IMAGES"
-_EYES = {bot_core.images_t.LEFT: "left", bot_core.images_t.RIGHT: "right"}
-_SCHEMA_OF_IMAGES = "foxglove.CompressedImage"
+from .log_stream import JOINTS, Selection, Stream, counted
+from .mcap_file import McapFile
+from .samples import SamplesError, SamplesFile
+from .table_files import CsvFile, Folder, MissingError, ParquetFile, survey
 
 
 class ExportError(Exception):
     """One line for the user."""
 
 
-def field_names(dtype: np.dtype) -> list[str]:
-    return [name for name in dtype.names if name != "fingerprint"]
+def seconds(text: str) -> float:
+    value = float(text)
+    if not 0 <= value < float("inf"):
+        raise ValueError(text)
+    return value
 
 
-def flat_columns(rows: np.ndarray) -> dict[str, np.ndarray]:
-    """A column a number: arrays become position[0], position[1], ..."""
-    columns = {}
-    for name in field_names(rows.dtype):
-        values = rows[name]
-        if values.ndim == 1:
-            columns[name] = values
-        for index in np.ndindex(values.shape[1:]):
-            if index:
-                brackets = "".join(f"[{i}]" for i in index)
-                columns[name + brackets] = values[(slice(None), *index)]
-    return columns
-
-
-def spoken(record: Record) -> dict[str, np.ndarray]:
-    """The channels that hold something."""
-    return {channel: record[channel] for channel in CHANNELS if len(record[channel])}
-
-
-def write_csv(record: Record, folder: Path) -> None:
-    """A file a channel, numbers in full precision."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for channel, rows in spoken(record).items():
-        columns = flat_columns(rows)
-        with (folder / f"{channel}.csv").open("w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(columns)
-            writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
-
-
-def write_parquet(record: Record, folder: Path) -> None:
-    """A file a channel: tables of different columns do not fit into one."""
+def pattern(text: str) -> re.Pattern:
     try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError:
-        raise ExportError("pyarrow is missing: pip install 'reach[parquet]'") from None
-    folder.mkdir(parents=True, exist_ok=True)
-    for channel, rows in spoken(record).items():
-        columns = {
-            name: pyarrow.array(np.ascontiguousarray(column))
-            for name, column in flat_columns(rows).items()
-        }
-        parquet.write_table(pyarrow.table(columns), folder / f"{channel}.parquet")
-
-
-def schema(dtype: np.dtype) -> dict:
-    """What a message of ours looks like, as JSON Schema."""
-    properties = {}
-    for name in field_names(dtype):
-        field = dtype[name]
-        entry = {"type": "number" if field.base.kind == "f" else "integer"}
-        for _ in field.shape:
-            entry = {"type": "array", "items": entry}
-        properties[name] = entry
-    return {"type": "object", "properties": properties}
-
-
-def as_json(row: np.void) -> bytes:
-    """JSON has no infinity and no NaN: null stands for them."""
-    fields = {name: row[name].tolist() for name in field_names(row.dtype)}
-    try:
-        return json.dumps(fields, allow_nan=False).encode()
-    except ValueError:
-        return json.dumps(_finite(fields)).encode()
-
-
-def _finite(value):
-    if isinstance(value, dict):
-        return {name: _finite(entry) for name, entry in value.items()}
-    if isinstance(value, list):
-        return [_finite(entry) for entry in value]
-    return None if isinstance(value, float) and not np.isfinite(value) else value
-
-
-def write_mcap(record: Record, log: Path, path: Path) -> None:
-    """Messages as JSON, and images that were logged as foxglove.CompressedImage."""
-    try:
-        from mcap.writer import Writer
-    except ImportError:
-        raise ExportError("mcap is missing: pip install 'reach[mcap]'") from None
-    with path.open("wb") as file:
-        writer = Writer(file)
-        writer.start(profile="", library="reach-export")
-        for channel, rows in spoken(record).items():
-            text = json.dumps(schema(rows.dtype)).encode()
-            type_name = f"reach.{CHANNELS[channel]}"
-            topic = _register(writer, f"/{channel}", type_name, text)
-            for number, row in enumerate(rows):
-                stamp = int(row["utime"]) * 1000
-                writer.add_message(topic, stamp, as_json(row), stamp, number)
-        _write_images(writer, log)
-        writer.finish()
-
-
-def _register(writer, topic: str, type_name: str, text: bytes) -> int:
-    number = writer.register_schema(type_name, "jsonschema", text)
-    return writer.register_channel(topic, "json", number)
-
-
-def _write_images(writer, log: Path) -> None:
-    text = json.dumps({"type": "object", "properties": {
-        "timestamp": {"type": "object", "properties": {"sec": {"type": "integer"},
-                                                       "nsec": {"type": "integer"}}},
-        "frame_id": {"type": "string"}, "format": {"type": "string"},
-        "data": {"type": "string", "contentEncoding": "base64"}}}).encode()  # fmt: skip
-    topics: dict[str, int] = {}
-    for event in events(log):
-        if event.channel != IMAGES:
-            continue
-        pair = bot_core.images_t.decode(event.data)
-        for kind, image in zip(pair.image_types, pair.images, strict=True):
-            if image.pixelformat != image.PIXEL_FORMAT_MJPEG or kind not in _EYES:
-                continue
-            eye = _EYES[kind]
-            if eye not in topics:
-                topics[eye] = _register(writer, f"/{IMAGES}/{eye}", _SCHEMA_OF_IMAGES, text)
-            seconds, rest = divmod(image.utime, 1_000_000)
-            message = {"timestamp": {"sec": seconds, "nsec": rest * 1000}, "frame_id": eye,
-                       "format": "jpeg", "data": base64.b64encode(image.data).decode()}  # fmt: skip
-            stamp = image.utime * 1000
-            writer.add_message(topics[eye], stamp, json.dumps(message).encode(), stamp)
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no pattern: {error}") from None
 
 
 def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
@@ -161,41 +41,97 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
                         help="write one Parquet file for each channel to DIR")  # fmt: skip
     parser.add_argument("--mcap", type=Path, metavar="FILE",
                         help="write one MCAP file, such as for Foxglove")  # fmt: skip
+    parser.add_argument("--samples", type=Path, metavar="FILE",
+                        help="write the samples that were learned, for reach-eval")  # fmt: skip
+    parser.add_argument("--test-samples", type=Path, metavar="FILE",
+                        help="write the samples that were gathered with a frozen"
+                        " model, for reach-eval")  # fmt: skip
     parser.add_argument("--rrd", type=Path, metavar="FILE",
                         help="write one file for Rerun's viewer")  # fmt: skip
     parser.add_argument("--urdf", type=Path, metavar="FILE", help="the robot in it; default: one"
                         " of ours with the log's joints")  # fmt: skip
+    parser.add_argument("--channels", type=pattern, metavar="PATTERN",
+                        help="only channels whose whole name matches")  # fmt: skip
+    parser.add_argument("--from", type=seconds, metavar="S", dest="start",
+                        help="begin S seconds after the log's first stamp")  # fmt: skip
+    parser.add_argument("--to", type=seconds, metavar="S", dest="end",
+                        help="end S seconds after the log's first stamp")  # fmt: skip
     options = parser.parse_args(arguments)
-    if not (options.csv or options.parquet or options.mcap or options.rrd):
-        parser.error("--csv, --parquet, --mcap or --rrd is wanted")
+    files = (options.csv, options.parquet, options.mcap, options.rrd, options.samples,
+             options.test_samples)  # fmt: skip
+    if not any(files):
+        parser.error("--csv, --parquet, --mcap, --samples, --test-samples or --rrd is wanted")
     return options
+
+
+def open_outputs(options: argparse.Namespace, stream: Stream, stack: ExitStack) -> list:
+    """What is written to; the stack discards what is not finished."""
+    outputs: list = []
+    if options.csv or options.parquet:
+        tables = list(survey(stream).values())
+        for folder, make in ((options.csv, CsvFile), (options.parquet, ParquetFile)):
+            if folder and tables:
+                outputs.append(_kept(stack, Folder(folder, make, tables)))
+    if options.mcap:
+        outputs.append(_kept(stack, McapFile(options.mcap, _first_joints(stream))))
+    for path, learned in ((options.samples, True), (options.test_samples, False)):
+        if path:
+            outputs.append(_kept(stack, SamplesFile(path, learned)))
+    return outputs
+
+
+def _kept(stack: ExitStack, output):
+    stack.callback(output.discard)
+    return output
+
+
+def _first_joints(stream: Stream) -> tuple[str, ...]:
+    """Their names, where they are told in the first seconds."""
+    for piece in stream.pieces():
+        return next((group.joints for group in piece.groups if group.channel == JOINTS), ())
+    return ()
+
+
+def write(options: argparse.Namespace, stream: Stream) -> list[str]:
+    """Returns what is to be told, a line each."""
+    messages, channels, lines = 0, set(), []
+    with ExitStack() as stack:
+        outputs = open_outputs(options, stream, stack)
+        for piece in stream.pieces():
+            for output in outputs:
+                output.take(piece if isinstance(output, McapFile) else piece.groups)
+            messages += sum(len(group.rows) for group in piece.groups)
+            channels |= {group.channel for group in piece.groups}
+            if options.mcap:
+                channels |= {event.channel for _, event in piece.images}
+        if not channels:
+            raise ExportError("; ".join(["there is no message of ours in it", *stream.told()]))
+        for output in outputs:
+            output.finish()
+            lines += output.told()
+    said = f"{counted(messages, 'message')} of {counted(len(channels), 'channel')}"
+    return [said, *lines, *stream.told()]
 
 
 def export(options: argparse.Namespace) -> str:
     """Does it; returns a line about it."""
-    options.log.open("rb").close()  # LCM's own complaint does not name the file
-    record = read_log(options.log)
-    channels = spoken(record)
-    if not channels:
-        raise ExportError(f"{options.log}: it holds no message of ours")
-    if options.csv:
-        write_csv(record, options.csv)
-    if options.parquet:
-        write_parquet(record, options.parquet)
-    if options.mcap:
-        write_mcap(record, options.log, options.mcap)
+    stream = Stream(options.log, Selection(options.channels, options.start, options.end))
+    lines = write(options, stream)
     if options.rrd:
-        recording.write(options.log, options.rrd, options.urdf)
-    total = sum(len(rows) for rows in channels.values())
-    refused = f", {record.refused} of another layout left out" if record.refused else ""
-    return f"{total} messages of {len(channels)} channels{refused}"
+        bad = recording.write(options.log, options.rrd, options.urdf, stream.selection)
+        if bad:
+            lines.append(f"{counted(bad, 'message')} cannot be shown in {options.rrd}")
+    return "; ".join(lines)
 
 
 def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     try:
         print(f"reach-export: {export(options)}")
-    except (ExportError, recording.RecordingError, OSError) as error:
+    except (ExportError, SamplesError) as error:
+        print(f"reach-export: {options.log}: {error}", file=sys.stderr)
+        return 1
+    except (MissingError, recording.RecordingError, OSError) as error:
         print(f"reach-export: {error}", file=sys.stderr)
         return 1
     return 0

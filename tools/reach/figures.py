@@ -9,13 +9,21 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from . import metrics, summary
+from .programs import OURS
 from .record import Record
 
 COLOURS = {"hand": "#1f5fa8", "tool": "#b8500f"}
+# Dashes tell them apart without colour.
+LEARNERS = {
+    OURS: {"color": "#1f5fa8", "ls": "-"},
+    "polynomial": {"color": "#b06a00", "ls": "-."},
+    "linear": {"color": "#2f8f5b", "ls": "--"},
+    "lwpr": {"color": "#b3261e", "ls": ":"},
+}
 PAPER = "#777777"
 COMPONENTS = ("yaw, deg", "pitch, deg", "disparity, px")
 JOINTS = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow", "neck yaw", "neck pitch")
-WINDOW = 10  # samples of the running error
+WINDOWS = 3, 10  # samples of the running error: a tenth of a phase's, within these bounds
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 10,
@@ -80,6 +88,10 @@ def result(record: Record, run: dict, folder: Path) -> Figure | None:
     return figure
 
 
+def window(samples: int) -> int:
+    return int(np.clip(samples // 10, *WINDOWS))
+
+
 def learning(record: Record, run: dict, result: dict) -> Figure:
     """Errors of predictions made before each sample was learned, and those of the test sets."""
     figure, axes = canvas(3, 1, 6.6, sharex=True)
@@ -89,7 +101,7 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
         error = metrics.to_people(rows["x_predicted"]) - metrics.to_people(rows["x"])
         last = first + len(rows)
         numbers = np.arange(first + 1, last + 1)
-        running = metrics.running_rms(error, WINDOW)
+        running = metrics.running_rms(error, window(len(rows)))
         for component, axis in enumerate(axes[:, 0]):
             colour = COLOURS[name]
             axis.plot(numbers, np.abs(error[:, component]), ".", color=colour, alpha=0.35, ms=3)

@@ -20,7 +20,15 @@ _REQUEST, _REPLY = reach.learner_request_t, reach.learner_reply_t
 _PREDICTION = dtype_of("learner_prediction_t")
 _CLIENT = slice(16, 24)  # where an encoded answer says whose it is
 _LEARNED = {_REPLY.UPDATED: "updated", _REPLY.BORN: "born", _REPLY.OUTLIER: "outlier",
-            _REPLY.FULL: "full", _REPLY.BEYOND: "beyond"}  # fmt: skip
+            _REPLY.FULL: "full", _REPLY.BEYOND: "beyond", _REPLY.FROZEN: "frozen"}  # fmt: skip
+_TROUBLES = {
+    _REPLY.MANY_FULL: "many samples are dropped: no expert is left",
+    _REPLY.MANY_OUTLIERS: "many samples are dropped as outliers",
+    _REPLY.FAR: "an input is many scales from its reference",
+    _REPLY.CONSTANT: "an input does not change",
+    _REPLY.STILL: "outputs stand still while inputs move",
+    _REPLY.EXPERTS: "there are more experts than branches",
+}
 _REFUSALS = {
     _REPLY.FAILED: "the disk refuses, see its log",
     _REPLY.UNKNOWN_KIND: "it does not know this kind of request",
@@ -43,8 +51,8 @@ class RestartedError(Exception):
 @dataclass(frozen=True)
 class Learned:
     """What became of a sample: updated or born (learned, by an expert that was there or by a new
-    one), outlier, full or beyond (dropped); its number in the model's life; and whether it is safe
-    on disk."""
+    one), outlier, full, beyond or frozen (dropped); its number in the model's life; and whether it
+    is safe on disk."""
 
     how: str
     sample: int
@@ -104,6 +112,12 @@ class Learner:
     def statistics(self) -> reach.learner_reply_t:
         """How the service is: samples, experts, what it refused and dropped."""
         return self._ask(self._request(_REQUEST.STATISTICS))
+
+    @property
+    def troubles(self) -> list[str]:
+        """What is wrong with the newest samples; the service's log says more."""
+        bits = self.statistics.troubles
+        return [text for bit, text in _TROUBLES.items() if bits & bit]
 
     def update(self, z, x, *, deadline: float | None = None) -> Learned:
         """Learns that z gives x."""

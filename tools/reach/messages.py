@@ -1,10 +1,12 @@
 """The message bindings that the build generates, and the sizes of their fields for bulk reading."""
 
-import re
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
+
+from .message_fields import Message, parse_message
 
 ROOT = Path(__file__).resolve().parents[2]
 _INSTALLED = Path(__file__).resolve().parent / "lcmtypes"  # where pip puts them
@@ -18,9 +20,10 @@ except ImportError:
         " PYTHONPATH=tools:build/python"
     )
 
-__all__ = ["CHANNELS", "ROOT", "bot_core", "dtype_of", "reach"]
+__all__ = ["CHANNELS", "ROOT", "bot_core", "described", "dtype_of", "reach"]
 
-# Channel -> type of what a log holds; images are apart.
+# Channel -> type of what a log holds. Images, JOINT_STATE and REACH_BODY_REQUEST, whose size
+# varies, are apart.
 CHANNELS = {
     "ROBOT_STATE": "robot_state_t",
     "ROBOT_COMMAND": "robot_command_t",
@@ -36,10 +39,23 @@ CHANNELS = {
     "LEARNER_REPLY": "learner_reply_t",
     "LEARNER_PREDICTION": "learner_prediction_t",
     "SIM_CONTACTS": "sim_contacts_t",
+    "REACH_CONFIG": "config_t",
+    "REACH_BODY": "body_t",
+    "REACH_BODY_IN_USE": "body_t",
+    "REACH_HELLO": "hello_t",
 }
 
 _SCALARS = {"int8_t": ">i1", "int32_t": ">i4", "int64_t": ">i8", "double": ">f8"}
-_FIELD = re.compile(r"^(int8_t|int32_t|int64_t|double) (\w+)((?:\[\d+\])*)$")
+
+
+@cache
+def described(type_name: str) -> Message:
+    """What lcmtypes/ say of one of our messages, or of bot_core's."""
+    for folder in (_LCMTYPES, _LCMTYPES / "bot_core"):
+        path = folder / f"{type_name}.lcm"
+        if path.is_file():
+            return parse_message(path.read_text())
+    raise KeyError(type_name)
 
 
 def dtype_of(type_name: str) -> np.dtype:
@@ -48,11 +64,6 @@ def dtype_of(type_name: str) -> np.dtype:
     All of them are of fixed size, so a whole log becomes one array without a call a message.
     """
     fields = [("fingerprint", ">i8")]
-    text = (_LCMTYPES / f"{type_name}.lcm").read_text()
-    body = re.sub(r"//[^\n]*", "", text).partition("{")[2]
-    for statement in body.partition("}")[0].split(";"):
-        match = _FIELD.match(" ".join(statement.split()))
-        if match:
-            shape = tuple(int(n) for n in re.findall(r"\d+", match[3]))
-            fields.append((match[2], _SCALARS[match[1]], shape))
+    for entry in described(type_name).fields:
+        fields.append((entry.plain_name, _SCALARS[entry.type], entry.dimensions))
     return np.dtype(fields)

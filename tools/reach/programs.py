@@ -17,8 +17,9 @@ BINARIES = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
 # to its net.core.rmem_max.
 LISTENER_URL = f"{DEFAULT_URL}&recv_buf_size=8388608"
 
-POLYNOMIAL = ROOT / "etc/learner-polynomial.yaml"
-LEARNERS = {"linear": ROOT / "etc/learner-linear.yaml", "lwpr": ROOT / "etc/learner-lwpr.yaml"}
+OURS = "body"  # the learner that ships: a robot's configuration alone
+# Others, each in a file that the daemon reads after a robot's configuration.
+LEARNERS = {name: ROOT / f"etc/learner-{name}.yaml" for name in ("polynomial", "linear", "lwpr")}
 
 
 def start(

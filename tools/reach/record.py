@@ -1,19 +1,22 @@
 """Reads an LCM log into one structured array a channel."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from . import messages
-from .event_log import events
+from .event_log import Gap, told
+from .log_stream import JOINTS, Stream
 
 
 class Record:
     """What was said on the bus. `record["MARKER"]["u_right"]` is a column; rows are in order."""
 
-    def __init__(self, channels: dict[str, np.ndarray], refused: int):
+    def __init__(self, channels: dict[str, np.ndarray], refused: int, gaps: list[Gap]):
         self._channels = channels
         self.refused = refused  # messages of ours that could not be read
+        self.gaps = gaps  # bytes of the log that are no event
 
     def __getitem__(self, channel: str) -> np.ndarray:
         return self._channels[channel]
@@ -30,25 +33,22 @@ class Record:
 
 
 def read_log(path: Path) -> Record:
-    """Every message of a known channel; one whose fingerprint or size is wrong is counted."""
-    dtypes = {channel: messages.dtype_of(name) for channel, name in messages.CHANNELS.items()}
-    prints = {
-        channel: getattr(messages.reach, name)._get_packed_fingerprint()
-        for channel, name in messages.CHANNELS.items()
+    """Every message of a known channel; one whose fingerprint or size is wrong is counted. Bytes
+    that are no event are in the record's `gaps`, and a warning tells of them."""
+    stream = Stream(path)
+    rows: dict[str, list[np.ndarray]] = {channel: [] for channel in messages.CHANNELS}
+    for piece in stream.pieces():
+        for group in piece.groups:
+            if group.channel != JOINTS:
+                rows[group.channel].append(group.rows)
+    if stream.gaps:
+        warnings.warn(f"{path}: {told(stream.gaps)}", stacklevel=2)
+    columns = {
+        channel: np.concatenate(parts) if parts else _none_of(channel)
+        for channel, parts in rows.items()
     }
-    chunks: dict[str, list[bytes]] = {channel: [] for channel in dtypes}
-    refused = 0
-    for event in events(path):
-        dtype = dtypes.get(event.channel)
-        if dtype is None:
-            continue
-        if len(event.data) == dtype.itemsize and event.data.startswith(prints[event.channel]):
-            chunks[event.channel].append(event.data)
-        else:
-            refused += 1
-    return Record({c: _columns(chunks[c], dtypes[c]) for c in dtypes}, refused)
+    return Record(columns, stream.refused.total(), stream.gaps)
 
 
-def _columns(chunks: list[bytes], dtype: np.dtype) -> np.ndarray:
-    rows = np.frombuffer(b"".join(chunks), dtype)
-    return rows.astype(dtype.newbyteorder("="))
+def _none_of(channel: str) -> np.ndarray:
+    return np.empty(0, messages.dtype_of(messages.CHANNELS[channel]).newbyteorder("="))

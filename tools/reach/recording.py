@@ -4,11 +4,14 @@ ten times a second of the robot's time.
 Without rerun-sdk, which is large and optional, nothing is written and one line says so.
 """
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-from .event_log import events
-from .messages import ROOT, bot_core
+from .event_log import Event, events
+from .log_stream import JOINTS, Selection, Stream
+from .messages import ROOT
 
 MISSING = (
     "rerun-sdk is missing: pip install 'reach[rerun]'; in the tree:"
@@ -23,9 +26,10 @@ class RecordingError(Exception):
     """Why there is none; one line for the user."""
 
 
-def write(log: Path, path: Path, urdf: Path | None = None) -> None:
+def write(log: Path, path: Path, urdf: Path | None = None,
+          selection: Selection | None = None) -> int:  # fmt: skip
     """Writes the recording; `urdf` is the robot, by default one of ours that has the log's joints.
-    A file under its own name is whole."""
+    A file under its own name is whole. Returns how many messages could not be shown."""
     try:
         from . import view
     except ImportError:
@@ -34,8 +38,9 @@ def write(log: Path, path: Path, urdf: Path | None = None) -> None:
         urdf.open("rb").close()  # Rerun's own complaint does not name the file
     aside = path.with_name(f"{path.name}.new")
     try:
-        view.write_log(events(log), aside, urdf or robot_of(log), STEP)
+        bad = view.write_log(_selected(log, selection), aside, urdf or robot_of(log), STEP)
         aside.replace(path)
+        return bad
     except RuntimeError as error:
         raise RecordingError(f"{path}: {error}") from None
     finally:
@@ -64,7 +69,16 @@ def robot_of(log: Path) -> Path | None:
 
 
 def _joints_in(log: Path) -> set[str]:
-    for event in events(log):
-        if event.channel == "JOINT_STATE":
-            return set(bot_core.joint_state_t.decode(event.data).joint_name)
+    only = Selection(channels=re.compile(JOINTS))
+    for piece in Stream(log, only).pieces():
+        for group in piece.groups:
+            return set(group.joints)
     return set()
+
+
+def _selected(log: Path, selection: Selection | None) -> Iterator[Event]:
+    first = None
+    for event in events(log):
+        first = event.timestamp if first is None else first
+        if selection is None or selection.takes(event, first):
+            yield event

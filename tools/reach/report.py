@@ -97,8 +97,8 @@ def _rows(result: dict) -> list[tuple]:
         *rows,
         ("body: samples it was found from; error, of the noise; searches", "",
          _body(result["body"]), None),
-        ("experts; solutions on average", "", f"{result['experts']};"
-         f" {result['solutions_mean']:.2f}", None),
+        ("experts; contexts told apart; solutions on average", "", f"{result['experts']};"
+         f" {result['contexts']}; {result['solutions_mean']:.2f}", None),
         ("vision's error, standard deviation of [u v disparity], px", "about 2", spread, None),
         ("frames: all / ball missed / wrong", "",
          f"{result['frames']} / {result['missed_frames']} / {result['wrong_frames']}",
@@ -138,8 +138,9 @@ the paper's, whose cameras differ.</p>"""
 _EYES = """Both cameras at the end of the tests with the hand and with the tube. The circle is the
 ball that vision found, the cross its centre; it saw nothing but these images."""
 _LEARNING = """Errors of predictions made before each sample was learned (dots; line: root mean
-square of the last 10), hand first, then the tube, which nobody announced to the daemon. Diamonds:
-the test sets. Dashed: the paper's final error as a percentage of our range (figure 16)."""
+square of the last three, or of up to ten where samples are many), hand first, then the tube, which
+nobody announced to the daemon. Diamonds: the test sets. Dashed: the paper's final error as a
+percentage of our range (figure 16)."""
 _STARS = """The ball in the right image while the arm reaches for eight ends and back, the head at
 rest (paper, figures 21 and 24). The true track is the simulator's, without noise."""
 _SERIES = """Above: distance of the true ball to the present target in (u, v, disparity); dashed:

@@ -127,14 +127,20 @@ def open_window() -> None:
     rr.spawn(memory_limit="1GB", hide_welcome_screen=True)
 
 
-def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> None:
-    """What the window would have shown of a log, as a file of its own."""
+def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> int:
+    """What the window would have shown of a log, as a file of its own. Returns how many messages
+    could not be shown, since they are none of their channels'."""
+    bad = 0
     with rr.RecordingStream("reachd") as recording:
         recording.save(path)
         view = View(urdf, step)
         for event in events:
-            view.take(event.channel, event.data)
+            try:
+                view.take(event.channel, event.data)
+            except Exception:  # generated decoders raise anything on bytes like these
+                bad += 1
     recording.disconnect()
+    return bad
 
 
 def open_file(path: Path) -> None:

@@ -3,7 +3,7 @@
 #include "common/bus/open.h"
 #include "common/bus/status_words.h"
 #include "learner/bus/body_message.h"
-#include "tools/reachctl/show.h"
+#include "tools/reachctl/view/show.h"
 
 #include <lcm/lcm.h>
 #include <reach_sim_truth_t.h>

@@ -139,6 +139,12 @@ static int fill_until(const struct context *context)
     return 0;
 }
 
+static int fill_echo(const struct context *context)
+{
+    context->call->channel = context->arguments[0];
+    return 0;
+}
+
 static const struct command looking_commands[] = {
     {"status", "", 0, CALL_STATUS, 0, NULL, "show the state of the daemon; --json: for programs"},
     {"top", "", 0, CALL_TOP, 0, NULL,
@@ -146,6 +152,8 @@ static const struct command looking_commands[] = {
     {"body", "", 0, CALL_BODY, REACH_REQUEST_T_TELL_BODY, NULL,
      "show the robot's body as it was found; --dh: as numbers of Denavit and Hartenberg; "
      "--urdf FILE: write it as a URDF"},
+    {"echo", "CHANNEL", 1, CALL_ECHO, 0, fill_echo,
+     "print what is said on CHANNEL, a line of JSON a message; --once: one message"},
     {"doctor", "", 0, CALL_DOCTOR, 0, NULL,
      "find what is wrong with this machine or the bus; --json: for programs"},
     {0}};

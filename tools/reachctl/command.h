@@ -14,7 +14,7 @@ struct command_settings {
     double timeout;   /* s to wait for an answer */
     bool wait;        /* until the behaviour has ended */
     bool json;        /* status, doctor: as JSON */
-    bool once;        /* top: one frame */
+    bool once;        /* top: one frame; echo: one message */
     bool frozen;      /* do not learn */
     int64_t seed;     /* of babbling's random configurations */
     double period;    /* s for each target, 0: the command's own */
@@ -29,6 +29,7 @@ enum call_kind {
     CALL_STATUS,     /* show the daemon's status */
     CALL_TOP,        /* show what is on the bus, over and over */
     CALL_DOCTOR,     /* examine machine and bus */
+    CALL_ECHO,       /* print the messages of `channel` */
     CALL_BODY,       /* send `request`, show the body that comes */
     CALL_DAEMON,     /* send `request` */
     CALL_SIMULATOR,  /* send `sim` */
@@ -38,6 +39,7 @@ enum call_kind {
 /* What is to be done. */
 struct call {
     enum call_kind kind;
+    const char *channel; /* a pattern; the command line's */
     reach_request_t request;
     reach_sim_request_t sim;
 };

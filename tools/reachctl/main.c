@@ -5,8 +5,9 @@
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
-#include "tools/reachctl/show.h"
-#include "tools/reachctl/top.h"
+#include "tools/reachctl/view/echo.h"
+#include "tools/reachctl/view/show.h"
+#include "tools/reachctl/view/top.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -26,7 +27,8 @@ static const struct argument_row rows[] = {
                      "wait this long for an answer; default 5"),
     ARGUMENT_ON("wait", 0, struct arguments, settings.wait, "until what was asked for has ended"),
     ARGUMENT_ON("json", 0, struct arguments, settings.json, "status or doctor as JSON"),
-    ARGUMENT_ON("once", 0, struct arguments, settings.once, "top: one frame, then the end"),
+    ARGUMENT_ON("once", 0, struct arguments, settings.once,
+                "top: one frame, then the end; echo: one message"),
     ARGUMENT_INT64("seed", "S", struct arguments, settings.seed, INT64_MIN, INT64_MAX,
                    "of random configurations and goals; default 1"),
     ARGUMENT_ON("frozen", 0, struct arguments, settings.frozen,
@@ -144,6 +146,9 @@ static int carry_out(struct call *call, const struct command_settings *settings,
         return top_run(settings->url, settings->once, settings->timeout, error, error_size);
     if (call->kind == CALL_DOCTOR)
         return doctor_run(settings->url, settings->json, error, error_size);
+    if (call->kind == CALL_ECHO)
+        return echo_run(settings->url, call->channel, settings->once, settings->timeout, error,
+                        error_size);
     client = client_create(settings->url, error, error_size);
     if (!client)
         return -1;

@@ -4,12 +4,20 @@
 #include "daemon/control/behaviours/babble.h"
 
 #include "daemon/control/behaviours/helpers.h"
+#include "daemon/control/behaviours/tour.h"
 
 #include <reach_status_t.h>
 #include <string.h>
 
 static const int most_draws = 20;  /* for a posture that promises something */
 static const double daring = 0.05; /* chance of a posture that promises nothing */
+
+/* Without a body it begins with each joint alone (tour.h). */
+struct babbling {
+    struct babble babble;
+    struct tour tour;
+    bool tours;
+};
 
 static void draw(struct babble *babble, const struct config *config)
 {
@@ -56,12 +64,15 @@ static bool babble_accepts(const struct config *config, const reach_request_t *r
 static void babble_start(struct behaviour *behaviour, const reach_request_t *request,
                          const struct senses *senses, struct wants *wants)
 {
-    struct babble *babble = behaviour_state(behaviour);
+    struct babbling *babbling = behaviour_state(behaviour);
+    struct babble *babble = &babbling->babble;
 
     behaviour->progress.total = request->count;
     memcpy(babble->min, senses->config->babble_min.value, sizeof babble->min);
     memcpy(babble->max, senses->config->babble_max.value, sizeof babble->max);
     babble_begin(babble, request->seed, &behaviour->progress, senses, wants);
+    babbling->tours = tour_shows_body(senses->config);
+    tour_init(&babbling->tour, senses, babble->min, babble->max);
 }
 
 /* The arm is there, or as near as it gets: wait for the eyes. */
@@ -116,19 +127,25 @@ void babble_continue(struct babble *babble, struct progress *progress, const str
 static bool babble_step(struct behaviour *behaviour, const struct senses *senses,
                         struct wants *wants)
 {
+    struct babbling *babbling = behaviour_state(behaviour);
+
     if (behaviour->progress.done >= behaviour->progress.total)
         return false;
-    babble_continue(behaviour_state(behaviour), &behaviour->progress, senses, wants);
+    babbling->tours = babbling->tours && tour_turn_joints(&babbling->tour, senses, wants);
+    if (!babbling->tours)
+        babble_continue(&babbling->babble, &behaviour->progress, senses, wants);
+    else if (senses->sight->new_frame)
+        gather_sample(&behaviour->progress, senses, wants);
     return true;
 }
 
-BEHAVIOUR_STATE_FITS(struct babble);
+BEHAVIOUR_STATE_FITS(struct babbling);
 
 const struct behaviour_ops behaviour_babble = {
     .name = "babble",
     .kind = REACH_REQUEST_T_BABBLE,
     .code = REACH_STATUS_T_BABBLE,
-    .state_size = sizeof(struct babble),
+    .state_size = sizeof(struct babbling),
     .accepts = babble_accepts,
     .start = babble_start,
     .step = babble_step,

@@ -51,12 +51,6 @@ struct explore {
     struct tour tour;
 };
 
-/* Eyes that fixate lose the marker on a tour; they find a body from few fixations. */
-static bool shows_body(const struct config *config)
-{
-    return config->learner.features == LEARNER_BODY && !config->space.fixates;
-}
-
 static double scaled_norm(const struct config *config, const double *x)
 {
     double sum = 0;
@@ -90,8 +84,15 @@ static void explore_start(struct behaviour *behaviour, const reach_request_t *re
                           const struct senses *senses, struct wants *wants)
 {
     struct explore *explore = behaviour_state(behaviour);
+    const struct config *config = senses->config;
+    double low[MAX_JOINTS] = {0}, high[MAX_JOINTS] = {0};
 
     (void)wants;
+    for (int i = 0; i < config_arm_joints(config); i++) {
+        low[i] = config->arm_min.value[i] + config->motion_margin;
+        high[i] = config->arm_max.value[i] - config->motion_margin;
+    }
+    tour_init(&explore->tour, senses, low, high);
     explore->random = random_seed(request->seed);
     explore->ignorance = 1;
     memcpy(explore->q_seen, senses->q, sizeof explore->q_seen);
@@ -145,7 +146,8 @@ static void gather_sample(struct behaviour *behaviour, const struct senses *sens
         !sight_within(senses->sight, senses->config->explore_tolerance))
         return;
     control_gather(senses, wants, 1);
-    if (!shows_body(senses->config) || tour_counts(&explore->tour, senses->config, wants->pair.q))
+    if (!tour_shows_body(senses->config) ||
+        tour_counts(&explore->tour, senses->config, wants->pair.q))
         behaviour->progress.done++;
     compare_motion(explore, senses, &wants->pair);
     if (!explore->any)
@@ -242,7 +244,7 @@ static bool explore_step(struct behaviour *behaviour, const struct senses *sense
         return true;
     }
     gather_sample(behaviour, senses, wants);
-    if (shows_body(senses->config) && go_on_tour(explore, senses, wants))
+    if (tour_shows_body(senses->config) && go_on_tour(explore, senses, wants))
         return true;
     if (explore->any)
         try_goal(behaviour, senses, wants);

@@ -34,14 +34,12 @@ void imagine_detour(struct imagine *imagine, const double *target, const struct 
     attempt_again(imagine, senses->config);
 }
 
-/* The solution of the context that is followed now, at the imagined joints; NULL without one. */
-static const struct learner_solution *solution_at(const struct imagine *imagine,
-                                                  const struct senses *senses)
+const struct learner_solution *imagine_solution(const struct senses *senses, const double *q)
 {
     const struct estimate *estimate = senses->estimate;
     struct learner_prediction *imagined = senses->imagined;
 
-    if (estimate->solution < 0 || learner_predict(senses->learner, imagine->q, imagined) == 0)
+    if (estimate->solution < 0 || learner_predict(senses->learner, q, imagined) == 0)
         return NULL;
     int principal = estimate->prediction.solution[estimate->solution].principal;
     for (int k = 0; k < imagined->n_solutions; k++)
@@ -55,7 +53,7 @@ static const struct learner_solution *solution_at(const struct imagine *imagine,
 static double move_on(struct imagine *imagine, const struct senses *senses)
 {
     const struct config *config = senses->config;
-    const struct learner_solution *solution = solution_at(imagine, senses);
+    const struct learner_solution *solution = imagine_solution(senses, imagine->q);
     double left[SPACE_DIMENSIONS], x_velocity[SPACE_DIMENSIONS];
     double velocity[MAX_JOINTS] = {0}, middle[MAX_JOINTS], sum = 0;
 

@@ -25,6 +25,10 @@ enum imagined {
     IMAGINED_NOTHING,   /* no attempt got there */
 };
 
+/* What the model says at arm joints q (rad), as the context that is followed now has it; NULL when
+ * it has nothing to say. Holds until the next call. */
+const struct learner_solution *imagine_solution(const struct senses *senses, const double *q);
+
 /* Begins to imagine the way to `target`. */
 void imagine_begin(struct imagine *imagine, const double *target, const struct senses *senses);
 

@@ -1,6 +1,7 @@
 #include "daemon/control/behaviours/tour.h"
 
 #include "daemon/control/behaviours/helpers.h"
+#include "daemon/control/behaviours/imagine.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,20 +9,30 @@
 /* Long enough for a circle's axis, short enough to stay clear of what stands around. */
 static const double turned = 0.45;   /* rad */
 static const double differs = 0.035; /* rad, two degrees */
+static const int postures = 12;      /* of which one is chosen; a fraction of a millisecond */
 
 static void set_deadline(struct tour *tour, const struct senses *senses)
 {
     tour->deadline = senses->time + (int64_t)(senses->config->babble_timeout * 1e6);
 }
 
-static double lowest(const struct config *config, int i)
+bool tour_shows_body(const struct config *config)
 {
-    return config->arm_min.value[i] + config->motion_margin;
+    return config->learner.features == LEARNER_BODY && !config->space.fixates;
 }
 
-static double highest(const struct config *config, int i)
+void tour_init(struct tour *tour, const struct senses *senses, const double *low,
+               const double *high)
 {
-    return config->arm_max.value[i] - config->motion_margin;
+    int n = config_arm_joints(senses->config);
+
+    memset(tour, 0, sizeof *tour);
+    memcpy(tour->low, low, (size_t)n * sizeof *low);
+    memcpy(tour->high, high, (size_t)n * sizeof *high);
+    if (!learner_body(senses->learner))
+        return;
+    tour->begun = true;
+    tour->joint = n;
 }
 
 /* The joint goes to the side where there is more room. */
@@ -32,8 +43,8 @@ static void aim(struct tour *tour, const struct senses *senses)
 
     memcpy(tour->goal, tour->home, sizeof tour->goal);
     if (i < config_arm_joints(config) && !tour->back) {
-        double above = highest(config, i) - tour->home[i];
-        double below = tour->home[i] - lowest(config, i);
+        double above = tour->high[i] - tour->home[i];
+        double below = tour->home[i] - tour->low[i];
         tour->goal[i] += above > below ? fmin(turned, above) : -fmin(turned, below);
     }
     set_deadline(tour, senses);
@@ -45,7 +56,7 @@ static void begin(struct tour *tour, const struct senses *senses)
 
     tour->begun = true;
     for (int i = 0; i < config_arm_joints(config); i++)
-        tour->home[i] = fmin(fmax(senses->q[i], lowest(config, i)), highest(config, i));
+        tour->home[i] = fmin(fmax(senses->q[i], tour->low[i]), tour->high[i]);
     aim(tour, senses);
 }
 
@@ -65,15 +76,43 @@ bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wan
     return tour->joint < n;
 }
 
+/* How unsure the model is of the place at q: variance, scaled; 0 when it has nothing to say. */
+static double doubt_at(const double *q, const struct senses *senses)
+{
+    const struct learner_solution *solution = imagine_solution(senses, q);
+    double doubt = 0;
+
+    for (int row = 0; solution && row < SPACE_DIMENSIONS; row++) {
+        double scale = senses->config->space.scale[row];
+        doubt += solution->variance[row] / (scale * scale);
+    }
+    return doubt;
+}
+
+/* Of some random postures the one that tells most. */
+static void choose_posture(struct tour *tour, struct random_state *random,
+                           const struct senses *senses)
+{
+    double most = -1;
+
+    for (int k = 0; k < postures; k++) {
+        double q[MAX_JOINTS] = {0};
+        for (int i = 0; i < config_arm_joints(senses->config); i++)
+            q[i] = random_uniform(random, tour->low[i], tour->high[i]);
+        double doubt = doubt_at(q, senses);
+        if (doubt <= most)
+            continue;
+        most = doubt;
+        memcpy(tour->goal, q, sizeof tour->goal);
+    }
+}
+
 void tour_visit_postures(struct tour *tour, struct random_state *random,
                          const struct senses *senses, struct wants *wants)
 {
-    const struct config *config = senses->config;
-
     if (!control_arm_to(senses, wants, tour->goal) && senses->time < tour->deadline)
         return;
-    for (int i = 0; i < config_arm_joints(config); i++)
-        tour->goal[i] = random_uniform(random, lowest(config, i), highest(config, i));
+    choose_posture(tour, random, senses);
     set_deadline(tour, senses);
 }
 

@@ -141,7 +141,7 @@ static void expect_refused(struct learner *learner, unsigned char *bytes, size_t
 
 START_TEST(numbers_that_cannot_be_are_refused)
 {
-    enum { HEAD = 4, CHAIN = HEAD, CONTEXT = HEAD + BODY_NUMBERS };
+    enum { HEAD = 18, CHAIN = HEAD, CONTEXT = HEAD + BODY_NUMBERS };
     const double none[] = {NAN, INFINITY, -INFINITY, 1e300};
     struct learner_config config = body_config(JOINTS, false, 16);
     size_t size;
@@ -157,12 +157,15 @@ START_TEST(numbers_that_cannot_be_are_refused)
     load(before, learner);
     for (size_t word = 0; word < words; word += 1 + (size_t)(word < 300 ? 0 : bed_uniform(0, 4000)))
         expect_refused(learner, bytes, size, word, none[word % 4], before);
-    for (size_t word = 0; word < HEAD; word++) { /* found, contexts, experts, births */
+    for (size_t word = 0; word < 14; word++) { /* found .. births; of a trial; of changes */
         expect_refused(learner, bytes, size, word, -1.0, before);
-        expect_refused(learner, bytes, size, word, 0.5, before);
+        if (word < 4)
+            expect_refused(learner, bytes, size, word, 0.5, before);
         if (word < 3)
             expect_refused(learner, bytes, size, word, 18.0, before);
     }
+    expect_refused(learner, bytes, size, 14, -2.0, before);          /* the cause of a change */
+    expect_refused(learner, bytes, size, 14, JOINTS + 1, before);    /* the same */
     expect_refused(learner, bytes, size, 0, 0.0, before);            /* contexts without a body */
     expect_refused(learner, bytes, size, 2, 1.0, before);            /* both at once */
     expect_refused(learner, bytes, size, CHAIN, JOINTS + 1, before); /* another arm */
@@ -174,7 +177,8 @@ START_TEST(numbers_that_cannot_be_are_refused)
     expect_refused(learner, bytes, size, CONTEXT + 6, 3.0, before);    /* chosen */
     expect_refused(learner, bytes, size, CONTEXT + 9, 1024.0, before); /* number */
     expect_refused(learner, bytes, size, CONTEXT + 10, -1.0, before);  /* strain */
-    expect_refused(learner, bytes, size, CONTEXT + 14, 0.0, before);   /* the whitener's diagonal */
+    expect_refused(learner, bytes, size, CONTEXT + 11, -1.0, before);  /* slip */
+    expect_refused(learner, bytes, size, CONTEXT + 15, 0.0, before);   /* the whitener's diagonal */
     bed_expect_same_state(learner, before);
     seal(bytes, size);
     ck_assert_int_eq(learner_load(learner, bytes, size, err, sizeof err), 0);

@@ -142,6 +142,31 @@ START_TEST(gross_errors_leave_nothing_behind)
 }
 END_TEST
 
+/* A run of samples in which something else was taken for the ball is a tool at first, and goes; one
+ * that was in use for a second stays. */
+START_TEST(what_was_seen_for_a_moment_is_forgotten)
+{
+    const double tip[3] = {0.1, -0.05, 0.05}, tool[3] = {-0.2, 0.1, 0.0};
+
+    bed_seed();
+    struct body body = made_up_arm(JOINTS, false);
+    struct learner *learner = on_body(&body, 16);
+    teach(learner, &body, tip, 100);
+    teach(learner, &body, tool, 50);
+    for (int run = 0; run < 5; run++) {
+        double wrong[3];
+        random_tip(wrong);
+        teach(learner, &body, wrong, 10);
+        teach(learner, &body, tip, 100);
+    }
+    ck_assert_int_gt(experts(learner), 4);
+    teach(learner, &body, tip, 1100);
+    ck_assert_int_eq(experts(learner), 2);
+    ck_assert_double_lt(misfit(learner, &body, tool), 1.0);
+    bed_clean();
+}
+END_TEST
+
 /* A tool that moved through where another is: there were two contexts of one tool, then. */
 START_TEST(two_contexts_of_one_tool_become_one)
 {
@@ -217,6 +242,7 @@ int main(void)
         tools_in_turns_from_the_first_sample_are_known,
         the_strongest_are_answered,
         gross_errors_leave_nothing_behind,
+        what_was_seen_for_a_moment_is_forgotten,
         two_contexts_of_one_tool_become_one,
         a_full_model_makes_room,
         one_place_serves_the_newest_tool,

@@ -181,6 +181,41 @@ START_TEST(a_missing_file_and_a_missing_value_are_told)
 }
 END_TEST
 
+/* A list takes names with blanks, a text splits at them; both hold more than one text would. */
+START_TEST(names_are_a_list_or_words)
+{
+    static const struct option_row rows[] = {
+        {"joints", OPTION_NAMES, 0, NULL, "", 0, 0, "help", NULL}, OPTION_END};
+    static char names[OPTION_MAX_NAMES], yaml[2 * OPTION_MAX_NAMES], text[OPTION_TEXT_SIZE];
+    const char *override;
+
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, NULL, 0, error, sizeof error), 0);
+    ck_assert_str_eq(names, "");
+    override = "joints=  one two\tthree ";
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, &override, 1, error, sizeof error), 0);
+    ck_assert_str_eq(names, "one\ntwo\nthree");
+    override = "joints=[upper arm, \"neck: yaw\"]";
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, &override, 1, error, sizeof error), 0);
+    ck_assert_str_eq(names, "upper arm\nneck: yaw");
+    option_text(&rows[0], names, text);
+    ck_assert_str_eq(text, "[upper arm, neck: yaw]");
+    override = "joints=[one, '']";
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, &override, 1, error, sizeof error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "empty"));
+
+    strcpy(yaml, "joints=");
+    for (int i = 0; i < 16; i++)
+        snprintf(yaml + strlen(yaml), 100, "a_joint_with_a_rather_long_name_%02d ", i);
+    override = yaml;
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, &override, 1, error, sizeof error), 0);
+    ck_assert_uint_eq(strlen(names), 16 * 35 - 1);
+    memset(yaml + strlen("joints="), 'x', OPTION_MAX_NAMES);
+    yaml[strlen("joints=") + OPTION_MAX_NAMES] = '\0';
+    ck_assert_int_eq(options_load(rows, names, NULL, 0, &override, 1, error, sizeof error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "longer"));
+}
+END_TEST
+
 START_TEST(values_become_the_text_that_gives_them)
 {
     static const char *const texts[] = {"true", "7", "0.25", "180", "[-30, 45.5]", "nao", "blue"};
@@ -241,6 +276,7 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {
+        names_are_a_list_or_words,
         defaults_are_stored,
         degrees_become_radians,
         file_replaces_defaults_and_overrides_replace_the_file,

@@ -160,9 +160,80 @@ START_TEST(it_repeats_whatever_happened)
 }
 END_TEST
 
+/* Ticks without a robot, which nobody logs. */
+static void wait_for_a_robot(int n)
+{
+    for (int i = 0; i < n; i++) {
+        memset(&inputs, 0, sizeof inputs);
+        inputs.state_age = INFINITY;
+        tick_decide(tick, &inputs, robot.now, &outputs);
+        tick_report(tick, robot.now, &outputs);
+    }
+}
+
+/* The number of the second run's first trace goes on where those of the first one's end. */
+START_TEST(a_run_that_begins_late_is_not_the_one_before)
+{
+    enum { FIRST = 10, SILENT = 30, SECOND = 20 };
+    struct arena *before;
+
+    chance = fixture_random("replay");
+    begin();
+    for (int64_t number = 1; number <= FIRST; number++)
+        step(number);
+    before = arena;
+    tick = fixture_tick(&config, &arena);
+    fake_robot_init(&robot, &config);
+    wait_for_a_robot(SILENT);
+    for (int64_t number = 1; number <= SECOND; number++)
+        step(number);
+    ck_assert_int_eq(replay_report(replay)->runs, 2);
+    ck_assert_int_eq(replay_report(replay)->ticks, FIRST + SECOND);
+    replay_destroy(replay);
+    arena_destroy(arena);
+    arena_destroy(before);
+}
+END_TEST
+
+START_TEST(losses_are_told_by_run)
+{
+    static const struct replay_settings settings = {.lossy = true};
+    static reach_config_t message;
+    static unsigned char bytes[sizeof message + 8];
+    reach_trace_t trace;
+
+    begin();
+    replay_destroy(replay);
+    replay = replay_create(&settings);
+    config_message(&config, &message);
+    say("REACH_CONFIG", bytes, reach_config_t_encode(bytes, 0, sizeof bytes, &message));
+    for (int run = 0; run < 2; run++)
+        for (int64_t seq = 1; seq <= 5; seq += 1 + run) {
+            trace = (reach_trace_t){.seq = seq,
+                                    .utime = (seq + 100 * run) * 20000,
+                                    .fresh = seq == 1,
+                                    .config = (int32_t)config.checksum,
+                                    .has_state = seq == 3,
+                                    .given_state = 7};
+            send(OUTGOING_TRACE, &trace, sizeof trace);
+        }
+    ck_assert_int_eq(replay_report(replay)->runs, 2);
+    for (int run = 0; run < 2; run++) {
+        const struct replay_lost *lost = replay_report(replay)->run[run].lost;
+        ck_assert_int_eq(lost[REPLAY_STATE].n, 1);
+        ck_assert_int_eq(lost[REPLAY_STATE].first, 7);
+        ck_assert_int_eq(lost[REPLAY_TRACE].n, run == 0 ? 0 : 2);
+    }
+    replay_destroy(replay);
+    arena_destroy(arena);
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {it_repeats_whatever_happened};
+    const TTest *const tests[] = {it_repeats_whatever_happened,
+                                  a_run_that_begins_late_is_not_the_one_before,
+                                  losses_are_told_by_run};
 
     return SUITE_RUN("replay", tests);
 }

@@ -221,6 +221,57 @@ START_TEST(only_what_counts_is_looked_at)
 }
 END_TEST
 
+/* A walk whose tracker holds its answer from request `from` on. */
+static reach_learner_request_t walk(int step, int from)
+{
+    reach_learner_request_t request = desk_bench_request(REQUEST(UPDATE));
+
+    request.z[0] = sin(0.05 * step);
+    request.z[1] = cos(0.03 * step);
+    request.x[0] = 0.1 * sin(0.05 * (step < from ? step : from));
+    return request;
+}
+
+START_TEST(a_frozen_tracker_is_not_learned)
+{
+    reach_learner_request_t request;
+
+    for (int learns = 0; learns < 2; learns++) {
+        desk_bench_forgetful();
+        if (learns)
+            desk_learn_frozen(on.desk);
+        for (int step = 0; step < 130; step++) {
+            request = walk(step, 100);
+            ck_assert_int_eq(desk_bench_status(&request), REPLY(DONE));
+            if (!learns)
+                ck_assert_int_eq(on.output.reply.learned == REPLY(FROZEN), step > 101);
+        }
+        /* At step 101 inputs have moved by less than 1 % of their range. */
+        ck_assert_int_eq(on.output.reply.frozen, 28);
+        ck_assert_int_eq(on.output.reply.troubles & REPLY(STILL), REPLY(STILL));
+        ck_assert_int_eq(on.output.reply.samples, learns ? 130 : 102);
+    }
+}
+END_TEST
+
+START_TEST(troubles_are_told)
+{
+    reach_learner_request_t request;
+    char text[200];
+
+    desk_bench_forgetful();
+    for (int i = 0; i < 60; i++) {
+        request = desk_bench_request(REQUEST(UPDATE));
+        request.z[1] = 0.5;
+        ck_assert_int_eq(desk_bench_status(&request), REPLY(DONE));
+    }
+    ck_assert_int_ne(on.output.reply.troubles & REPLY(CONSTANT), 0);
+    ck_assert_uint_eq(desk_troubles(on.desk), (unsigned)on.output.reply.troubles);
+    desk_tell(on.desk, HEALTH_CONSTANT, text, sizeof text);
+    ck_assert_str_eq(text, "input 2 is 0.5 in all 60 samples: what it does is not learned");
+}
+END_TEST
+
 START_TEST(losses_are_told)
 {
     reach_learner_request_t request;
@@ -245,6 +296,8 @@ int main(void)
                             two_clients_do_not_meet,
                             what_is_wrong_is_refused_and_changes_nothing,
                             only_what_counts_is_looked_at,
+                            a_frozen_tracker_is_not_learned,
+                            troubles_are_told,
                             losses_are_told};
 
     return SUITE_RUN("desk", tests);

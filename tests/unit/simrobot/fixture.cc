@@ -50,9 +50,8 @@ std::unique_ptr<Stage> stage(std::initializer_list<const char *> overrides,
 
     result->config = config(overrides);
     result->rig = rig(result->config);
-    result->config.start.n = static_cast<int>(degrees.size());
     for (size_t i = 0; i < degrees.size(); i++)
-        result->config.start.value[i] = degrees[i] * degree;
+        result->rig.start[i] = degrees[i] * degree;
     result->simulation = std::make_unique<sim::Simulation>(result->config, result->rig, seed);
     ck_assert(result->simulation->set_tool(tool));
     return result;

@@ -38,10 +38,11 @@ END_TEST
 
 START_TEST(test_unusable_joints_are_refused)
 {
-    UrdfFile slide(replaced(shipped_urdf(), "name=\"elbow\" type=\"revolute\"",
-                            "name=\"elbow\" type=\"prismatic\""));
-    assert_names(slide.complaint(), {slide.path(), "elbow", "revolute"});
-    UrdfFile weak(replaced(shipped_urdf(), "effort=\"40\"", "effort=\"0\""));
+    UrdfFile loose(replaced(shipped_urdf(), "name=\"elbow\" type=\"revolute\"",
+                            "name=\"elbow\" type=\"floating\""));
+    assert_names(loose.complaint(), {loose.path(), "elbow", "revolute"});
+    UrdfFile weak(replaced(shipped_urdf(), "upper=\"-0.087266\" effort=\"40\"",
+                           "upper=\"-0.087266\" effort=\"0\""));
     assert_names(weak.complaint(), {weak.path(), "positive"});
     UrdfFile massless(replaced(shipped_urdf(), "<mass value=\"1.3\"/>", "<mass value=\"0\"/>"));
     assert_names(massless.complaint(), {massless.path(), "upper_arm", "mass"});

@@ -55,6 +55,19 @@ class Fixture(unittest.TestCase):
                 "--json", self.json, *words]  # fmt: skip
 
     def evaluate(self, *words) -> dict:
+        """The report of a run that has nothing to warn of."""
         result = run(*self.words(*words))
         self.assertEqual((result.returncode, result.stderr), (0, ""), result.stderr)
+        return self.report()
+
+    def report(self) -> dict:
         return json.loads(self.json.read_text())
+
+    def warnings_of(self, *words) -> list[str]:
+        """What a run warns of, on stderr and in its report alike."""
+        result = run(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        warnings = self.report()["warnings"]
+        told = "".join(f"reach-eval: warning: {warning}\n" for warning in warnings)
+        self.assertEqual(result.stderr, told)
+        return warnings

@@ -121,7 +121,7 @@ class Company(Background):
         hello = reach.hello_t.decode(data)
         if hello.role == hello.DAEMON and not hello.answer:
             hello.answer = 1
-            hello.revision = [*b"0.0".ljust(len(hello.revision), b"\0")]
+            hello.revision = [*b"0.0 \x1b[2J".ljust(len(hello.revision), b"\0")]
             self._buses[0].publish("REACH_HELLO", hello.encode())
 
     def run(self):
@@ -153,7 +153,8 @@ class Bus(Case):
             checks, code = examine()
         self.assertEqual(code, 1)
         self.assert_finding(checks, "layout", "MARKER", "build")
-        self.assert_finding(checks, "version", r"reachd is 0\.0, reachctl is \d", "reachd anew")
+        self.assert_finding(checks, "version", r"reachd is 0\.0 \\x1b\[2J, reachctl is \d",
+                            "reachd anew")  # fmt: skip
 
     def say_state(self, seconds: float, lockstep: int):
         state = reach.robot_state_t()

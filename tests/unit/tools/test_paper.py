@@ -48,7 +48,7 @@ class Resuming(unittest.TestCase):
         self.temporary = tempfile.TemporaryDirectory()
         self.addCleanup(self.temporary.cleanup)
         self.folder = Path(self.temporary.name)
-        self.run_ = plan.Run(kobian, "imle", 1, True)
+        self.run_ = plan.Run(kobian, "body", 1, True)
         self.inputs = self.run_.inputs("v1")
         (self.folder / "run.lcmlog.gz").touch()
         (self.folder / "run.json").write_text(json.dumps({"inputs": self.inputs}))
@@ -68,7 +68,7 @@ class Resuming(unittest.TestCase):
         self.assertTrue(plan.is_complete(self.folder, inputs, any_version=True))
 
     def test_other_sizes_seeds_or_learners_are_not(self):
-        for other in (plan.Run(kobian, "imle", 1, False), plan.Run(kobian, "imle", 2, True),
+        for other in (plan.Run(kobian, "body", 1, False), plan.Run(kobian, "body", 2, True),
                       plan.Run(kobian, "linear", 1, True)):  # fmt: skip
             self.assertFalse(plan.is_complete(self.folder, other.inputs("v1"), True))
 
@@ -83,8 +83,8 @@ class Resuming(unittest.TestCase):
             self.assertNotEqual(before, self.run_.inputs("v1"))
 
     def test_the_plan_goes_seed_by_seed(self):
-        names = [run.name for run in plan.plan([kobian], ("imle", "lwpr"), 2, True)]
-        self.assertEqual(names, ["kobian-imle-1", "kobian-lwpr-1", "kobian-imle-2",
+        names = [run.name for run in plan.plan([kobian], ("body", "lwpr"), 2, True)]
+        self.assertEqual(names, ["kobian-body-1", "kobian-lwpr-1", "kobian-body-2",
                                  "kobian-lwpr-2"])  # fmt: skip
 
 
@@ -94,9 +94,9 @@ class Report(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.out = Path(cls.temporary.name)
-        cls.arguments = ["--quick", "--only", "K1,K2,K3,K4", "--learner", "imle",
+        cls.arguments = ["--quick", "--only", "K1,K2,K3,K4", "--learner", "body",
                          "--out", str(cls.out)]  # fmt: skip
-        run = plan.Run(kobian, "imle", 1, True)
+        run = plan.Run(kobian, "body", 1, True)
         cls.folder = cls.out / "runs" / run.name
         with mock.patch.object(kobian, "settings", lambda quick, learner: SIZES):
             finish(run, cls.folder, plan.version())
@@ -120,7 +120,7 @@ class Report(unittest.TestCase):
         self.assertEqual([i for i, row in self.rows.items() if row["n"] != 1], [])
         lost = [name for name in self.rows if name.endswith(".lost_ticks")]
         self.assertEqual(lost, ["K1.lost_ticks", "K2.lost_ticks", "K3.lost_ticks", "K4.lost_ticks"])
-        self.assertEqual(len(self.rows), len(kobian.rows(("imle",))) + len(lost))
+        self.assertEqual(len(self.rows), len(kobian.rows(("body",))) + len(lost))
 
     def test_numbers_are_those_that_were_put_in(self):
         pct = 100 * 0.5 / np.degrees(0.11)
@@ -148,7 +148,7 @@ class Report(unittest.TestCase):
     def test_links_to_series_lead_somewhere(self):
         page = (self.out / "report.html").read_text()
         links = [part.split('"')[0] for part in page.split('href="')[1:]]
-        self.assertIn("runs/kobian-imle-1/series/k2_hand.csv", links)
+        self.assertIn("runs/kobian-body-1/series/k2_hand.csv", links)
         self.assertEqual([link for link in links if not (self.out / link).exists()], [])
 
     def test_rows_that_are_not_met_are_named(self):
@@ -161,7 +161,7 @@ class Report(unittest.TestCase):
         with mock.patch.object(Record, "lost", lambda _: 7), \
              mock.patch.object(perform, "_read", lambda _: None), \
              mock.patch.object(perform, "write_json") as written:  # fmt: skip
-            self.assertIn("warning  kobian-imle-1: its log lacks 7 control steps", self.call())
+            self.assertIn("warning  kobian-body-1: its log lacks 7 control steps", self.call())
         self.assertIn("log lacks 7 control steps", (self.out / "report.html").read_text())
         table = next(call.args[1] for call in written.mock_calls if isinstance(call.args[1], list))
         row = next(row for row in table if row["id"] == "K3.lost_ticks")

@@ -11,7 +11,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 
 import synthetic
-from reach.paper import drawing, explore, i1, i2, icub, rows, series, track
+from reach.arm import TOOLS, Arm
+from reach.paper import drawing, explore, i1, i2, icub, replay, rows, series, track
 from reach.record import read_log
 
 SIZES = {"samples": 30, "tests": 30, "cube_seconds": 2.0}
@@ -96,7 +97,7 @@ class Numbers(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         folder = Path(cls.temporary.name)
         run = synthetic.make(folder, 30, PHASES, {"cube": WANTED}, MISSED, inputs=7)
-        run["learner"] = "imle"
+        run["learner"] = "body"
         cls.series = folder / "series"
         cls.numbers = icub.analyse(read_log(folder / "run.lcmlog"), run, cls.series)
 
@@ -110,34 +111,65 @@ class Numbers(unittest.TestCase):
         self.assertLess(self.numbers["I2.hand.straightness_max"], 0.12)
 
     def test_every_row_has_a_number(self):
-        asked = icub.rows(("imle",))
+        asked = icub.rows(("body",))
         self.assertEqual([row.id for row in asked if row.number not in self.numbers], [])
         ids = [row.id for row in asked]
-        for wanted in ("I1.imle.s1.phase1_mm", "I2.L.corners_within_1cm"):
+        for wanted in ("I1.body.s1.phase1_mm", "I2.L.corners_within_1cm"):
             self.assertIn(wanted, ids)
 
     def test_learners_have_rows_of_their_own(self):
-        ids = [row.id for row in icub.rows(("imle", "linear", "lwpr"))]
+        ids = [row.id for row in icub.rows(("body", "linear", "lwpr"))]
         self.assertEqual(len(ids), len(set(ids)))
         self.assertIn("I1.lwpr.s2.phase3_mm", ids)
         self.assertIn("I2.lwpr.L.corners_within_1cm", ids)
 
     def test_bars(self):
-        bars = {row.id: row.bar for row in icub.rows(("imle", "lwpr"))}
-        self.assertEqual((bars["I1.imle.s1.phase1_mm"], bars["I1.imle.s2.phase2_mm"]), (3, 4))
-        self.assertIsNone(bars["I1.imle.s2.phase1_mm"])
+        bars = {row.id: row.bar for row in icub.rows(("body", "lwpr"))}
+        self.assertEqual((bars["I1.body.s1.phase1_mm"], bars["I1.body.s2.phase2_mm"]), (3, 4))
+        self.assertIsNone(bars["I1.body.s2.phase1_mm"])
         self.assertEqual(bars["I2.stick_new_3.corners_within_1cm"], 16)
         self.assertIsNone(bars["I2.stick_new_1.corners_within_1cm"])
-        row = next(r for r in icub.rows(("imle",)) if r.id == "I2.L.corners_within_1cm")
+        row = next(r for r in icub.rows(("body",)) if r.id == "I2.L.corners_within_1cm")
         self.assertIs(rows.Row.met(row, 15.0), False)
 
     def test_every_figure_is_drawn(self):
-        data = drawing.Data({"imle": [self.series]})
+        data = drawing.Data({"body": [self.series]})
         shown = icub.figures(("I1", "I2"))
         self.assertEqual([figure.number for figure in shown], [str(n) for n in range(5, 14)])
         for figure in shown:
             self.assertTrue(figure.draw(data).axes)
             self.assertEqual([n for n in figure.series if not data.path(n).exists()], [])
+
+
+class Relearned(unittest.TestCase):
+    """The robot's samples, whose joints do not come from the base to the tip, to reach-eval."""
+
+    def stream(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        joints = self.arm.uniform(n, rng)
+        q = np.empty_like(joints)
+        q[:, [number - 1 for number in self.order]] = joints
+        return np.hstack([q, self.arm.tip(joints, TOOLS["none"])])
+
+    def setUp(self):
+        self.arm = Arm()
+        self.order = replay.options(replay.ICUB, "body")["body.order"]
+
+    def test_a_body_is_found(self):
+        rng = np.random.default_rng(5)
+        rows, test = self.stream(80, rng), self.stream(200, rng)
+        rows[:, 7:] += 0.0005 * rng.standard_normal((80, 3))
+        at = np.array([80])
+        errors = {name: replay.curve(replay.ICUB, name, [rows], {"s1": test}, at)["s1"].mean()
+                  for name in ("body", "polynomial")}  # fmt: skip
+        self.assertLess(errors["body"], 0.0005)
+        self.assertGreater(errors["polynomial"], 0.02)
+
+    def test_the_reference_goes_with_the_joints(self):
+        given = replay.options(replay.ICUB, "body")
+        named = dict(text.split("=", 1) for text in replay.parameters(replay.ICUB, given))
+        wanted = np.radians(given["reference"])[[number - 1 for number in self.order]]
+        reference = [float(v) for v in named["reference"].strip("[]").split(",")]
+        np.testing.assert_allclose(reference, wanted)
 
 
 class Asked:
@@ -156,14 +188,14 @@ class FromNothing(unittest.TestCase):
     def measured(self, group: explore.Explore, beside: float) -> tuple[dict, dict]:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            sizes = group.settings(quick=True, learner="imle")
+            sizes = group.settings(quick=True, learner="body")
             asked = Asked()
             group.perform(asked, sizes, seed=2)
             names = tuple(entry[1] for entry in asked.said if entry[0] not in ("save", "load"))
             run = synthetic.make(folder, 5, names, {"reach": group.targets()}, beside)
             run["settings"] = sizes
             numbers = group.analyse(read_log(folder / "run.lcmlog"), run, folder)
-            data = drawing.Data({"imle": [folder]})
+            data = drawing.Data({"body": [folder]})
             for shown in group.figures(group.EXPERIMENTS):
                 self.assertTrue(shown.draw(data).axes)
                 self.assertEqual([n for n in shown.series if not data.path(n).exists()], [])
@@ -192,7 +224,7 @@ class FromNothing(unittest.TestCase):
     def test_every_row_has_a_number(self):
         for group in (explore.ICUB, explore.KOBIAN):
             numbers, _ = self.measured(group, 0.0)
-            self.assertEqual([r.id for r in group.rows(("imle",)) if r.id not in numbers], [])
+            self.assertEqual([r.id for r in group.rows(("body",)) if r.id not in numbers], [])
 
     def test_a_target_that_was_never_pursued_is_missed(self):
         with mock.patch.object(track, "segment", lambda _, __, number: None):
@@ -220,7 +252,7 @@ class FromNothing(unittest.TestCase):
 
     def test_nine_in_ten_are_asked_for(self):
         for group in (explore.ICUB, explore.KOBIAN):
-            row = group.rows(("imle",))[0]
+            row = group.rows(("body",))[0]
             self.assertEqual((row.bar, row.met(89.0), row.met(94.0)), (90, False, True))
 
 

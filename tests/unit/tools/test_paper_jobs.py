@@ -34,7 +34,7 @@ class Jobs(unittest.TestCase):
         self.addCleanup(signal.signal, signal.SIGTERM, signal.getsignal(signal.SIGTERM))
         self.stop = Stop()
         self.said = io.StringIO()
-        self.runs = plan.plan([kobian], ("imle", "linear"), 2, True)
+        self.runs = plan.plan([kobian], ("body", "linear"), 2, True)
 
     def do(self, task: jobs.Task, count: int = 2) -> tuple[jobs.Jobs, dict[str, str]]:
         side_by_side = jobs.Jobs(count, task, (TaskError,))
@@ -70,9 +70,9 @@ class Jobs(unittest.TestCase):
             return run.name
 
         done, failed = self.do(task)
-        self.assertEqual(failed, {"kobian-imle-1": "the ball is gone",
+        self.assertEqual(failed, {"kobian-body-1": "the ball is gone",
                                   "kobian-linear-1": "the ball is gone"})  # fmt: skip
-        self.assertEqual(done.remarks, {"kobian-imle-2", "kobian-linear-2"})
+        self.assertEqual(done.remarks, {"kobian-body-2", "kobian-linear-2"})
 
     def test_an_end_without_a_word_is_a_failure(self):
         _, failed = self.do(lambda run, told: os._exit(3 if run.learner == "linear" else 0))
@@ -102,6 +102,23 @@ class Jobs(unittest.TestCase):
             self.do(task)
         self.assertLess(time.monotonic() - began, LONG_SECONDS / 4)
         self.assertLess(self.said.getvalue().count("begun"), len(self.runs))
+
+    def test_an_end_before_the_first_step_is_heard(self):
+        def task(run: plan.Run, told: jobs.Told) -> None:
+            until = time.monotonic() + 10
+            while time.monotonic() < until:
+                self.stop.check()
+                time.sleep(0.01)
+
+        # On one processor the new process does not run before this one waits for it.
+        self.addCleanup(os.sched_setaffinity, 0, set(PROCESSORS))
+        os.sched_setaffinity(0, set(PROCESSORS[:1]))
+        for _ in range(5):
+            one = jobs.Jobs(1, task, ())
+            began = time.monotonic()
+            one._begin(self.runs[0])
+            one._end_all()
+            self.assertLess(time.monotonic() - began, 8)
 
 
 class TimeLeft(unittest.TestCase):

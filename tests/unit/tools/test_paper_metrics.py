@@ -74,12 +74,14 @@ class Replay(unittest.TestCase):
         given = replay.options(replay.KOBIAN, learner)
         return dict(text.split("=", 1) for text in replay.parameters(replay.KOBIAN, given))
 
-    def test_standard_deviations_become_variances_in_radians(self):
-        values = self.of("imle")
+    def test_standard_deviations_become_variances(self):
+        values = self.of("body")
         psi = [float(v) for v in values["psi0"].strip("[]").split(",")]
-        np.testing.assert_allclose(psi, [np.radians(0.5) ** 2] * 2 + [9])
+        np.testing.assert_allclose(psi, [0.25, 0.25, 9])
+        self.assertEqual(values["body.degrees"], "true")
         self.assertAlmostEqual(float(values["sigma0"]), 3.16**2)
-        self.assertEqual(values["experts"], "polynomial")
+        self.assertEqual((values["experts"], values["body.space"]), ("body", "eyes"))
+        self.assertEqual(self.of("polynomial")["experts"], "polynomial")
         self.assertEqual(values["n_outliers"], "1")
 
     def test_the_overlay_wins(self):
@@ -90,8 +92,8 @@ class Replay(unittest.TestCase):
         values = self.of("lwpr")
         self.assertEqual(values["lwpr.max_projections"], "4")
         norms = [float(v) for v in values["lwpr.norm_out"].strip("[]").split(",")]
-        np.testing.assert_allclose(norms, [np.radians(1)] * 2 + [3])
-        self.assertNotIn("lwpr.w_gen", self.of("imle"))
+        np.testing.assert_allclose(norms, [1, 1, 3])
+        self.assertNotIn("lwpr.w_gen", self.of("body"))
 
     def test_counts_end_with_all_and_begin_anew_with_each_phase(self):
         counts = replay.counts([500, 300])
@@ -102,17 +104,18 @@ class Replay(unittest.TestCase):
 
 
 class Table(unittest.TestCase):
-    LEARNERS = ("imle", "linear", "lwpr")
+    LEARNERS = ("body", "polynomial", "linear", "lwpr")
 
     def test_ids_are_unique_and_the_agreed_ones_are_there(self):
         ids = [row.id for row in kobian.rows(self.LEARNERS)]
         self.assertEqual(len(ids), len(set(ids)))
         for wanted in ("K1.s1.pitch_pct", "K2.hand.p95_px", "K3.tool.final_error_median_px",
-                       "K4.max_deg", "K1.lwpr.s1.pitch_pct"):  # fmt: skip
+                       "K4.max_deg", "K1.lwpr.s1.pitch_pct",
+                       "K1.polynomial.s1.pitch_pct"):  # fmt: skip
             self.assertIn(wanted, ids)
 
     def test_bars_are_those_asked_for(self):
-        bars = {row.id: row.bar for row in kobian.rows(("imle",))}
+        bars = {row.id: row.bar for row in kobian.rows(("body",))}
         self.assertEqual(bars["K1.s1.pitch_pct"], 0.9)
         self.assertEqual(bars["K1.s2.disparity_pct"], 1.25)
         self.assertEqual(bars["K1.tool.samples_to_2x"], 150)
@@ -127,7 +130,7 @@ class Table(unittest.TestCase):
 
     def test_mean_and_spread_are_over_the_runs_of_one_learner(self):
         asked = [rows.Row("K9.a_px", "a", "px", 3.0, 2.0)]
-        runs = [{"learner": "imle", "metrics": {"K9.a_px": value}} for value in (1.0, 3.0)]
+        runs = [{"learner": "body", "metrics": {"K9.a_px": value}} for value in (1.0, 3.0)]
         runs.append({"learner": "lwpr", "metrics": {"K9.a_px": 99.0}})
         (row,) = rows.aggregate(asked, runs)
         self.assertEqual(row, {"id": "K9.a_px", "experiment": "K9", "metric": "a", "unit": "px",

@@ -36,13 +36,13 @@ class Practice(unittest.TestCase):
     def test_both_are_asked_for_the_same(self):
         asked = [Asked(), Asked()]
         for group, one in zip(BOTH, asked, strict=True):
-            group.perform(one, group.settings(True, "imle"), seed=3)
+            group.perform(one, group.settings(True, "body"), seed=3)
         self.assertEqual(str(asked[0].said), str(asked[1].said))
         self.assertEqual([entry[0] for entry in asked[0].said], ["babble", "star", "star"])
         self.assertTrue(all(entry[-1]["learn"] for entry in asked[0].said))
 
     def test_one_may_practise(self):
-        without, allowed = (group.overlays("imle") for group in BOTH)
+        without, allowed = (group.overlays("body") for group in BOTH)
         self.assertEqual([path.name for path in allowed if path not in without], ["practice.yaml"])
 
     def test_a_target_within_five_pixels_is_reached(self):
@@ -55,7 +55,7 @@ class Practice(unittest.TestCase):
     def test_every_row_has_a_number_and_comes_once(self):
         for group in BOTH:
             numbers = self.measured(group, 0.0)
-            self.assertEqual([r.id for r in group.rows(("imle",)) if r.id not in numbers], [])
+            self.assertEqual([r.id for r in group.rows(("body",)) if r.id not in numbers], [])
         ids = [row.id for row in paper._asked(paper.parse(["--only", "E3"]))]
         self.assertEqual(len(ids), len(set(ids)))
         self.assertEqual(ids.count("E3.lost_ticks"), 1)
@@ -63,7 +63,7 @@ class Practice(unittest.TestCase):
     def test_it_is_about_the_shipped_learner_alone(self):
         runs = plan.plan(BOTH, plan.LEARNER_NAMES, 1, True)
         self.assertEqual([run.name for run in runs],
-                         ["practice-without-imle-1", "practice-with-imle-1"])  # fmt: skip
+                         ["practice-without-body-1", "practice-with-body-1"])  # fmt: skip
         self.assertEqual(plan.plan(BOTH, ("lwpr",), 1, True), [])
 
 

@@ -158,12 +158,12 @@ class Numbers(Fixture):
                          [learned["samples"], learned["samples"] + 300])  # fmt: skip
 
     def test_parameters_are_reported(self):
-        config = self.text("c.yaml", "degree: 2\nexperts: polynomial\nreference: [1, 2, 3]\n")
-        train = self.write("a.csv", samples(20, 1))
+        config = self.text("c.yaml", "degree: 2\nexperts: polynomial\nreference: [0.1, 0.2, 0]\n")
+        train = self.write("a.csv", samples(300, 1))
         report = self.evaluate("--train", train, "--config", config, "--param", "degree=4")
         parameters = report["parameters"]
         self.assertEqual((parameters["degree"], parameters["experts"]), (4, "polynomial"))
-        self.assertEqual(parameters["reference"], [1, 2, 3])
+        self.assertEqual(parameters["reference"], [0.1, 0.2, 0])
         self.assertEqual(parameters["psi0"], [0.01, 0.01])
         self.assertEqual(parameters["prior_psi"], ".inf")
         self.assertEqual(report["config"], [str(config)])

@@ -36,6 +36,14 @@ class Mistakes(Fixture):
             ("a,b,c,d\n" + good, ":1: ", "4 columns; wanted: 5"),
             ("1," * 300 + "\n", ":1: ", "256 columns or more"),
             ("1" * 70000 + "\n", ":1: ", "the line is too long"),
+            ("1;2;3;4;5\n", ":1: ", "the separator is a semicolon; wanted: a comma"),
+            ("1,5;2,5;3,5;4,5;5,5\n", ":1: ", "the separator is a semicolon"),
+            ("a;b;c;d;e\n1;2;3;4;5\n", ":1: ", "the separator is a semicolon"),
+            ("1 2 3 4 5\n", ":1: ", "the separator is a space"),
+            ("  1  2 3 4 5 \n", ":1: ", "the separator is a space"),
+            ("1\t2\t3\t4\t5\n", ":1: ", "the separator is a tab"),
+            (good + "1;2;3;4;5\n", ":2: ", "the separator is a semicolon"),
+            ("a,b,c,d,e\n1 2 3 4 5\n", ":2: ", "the separator is a space"),
         ):
             error = self.refused_file("bad.csv", content)
             self.assertIn(f"{self.folder}/bad.csv{where}", error)
@@ -73,6 +81,8 @@ class Mistakes(Fixture):
             (["--param", "degree=two"], "--param:1: degree: 'two' is not a number"),
             (["--param", "degree"], "'degree': name=value is wanted"),
             (["--param", "psi0=[1, 2, 3]"], "psi0 has 3 entries; wanted: 2, or one number"),
+            (["--param", "psi0=1,2,3"], "psi0 has 3 entries; wanted: 2, or one number"),
+            (["--param", "psi0=1,two"], "--param:1: psi0: 'two' is not a number"),
             (["--param", "alpha=0.5"], "--param:1: alpha: 0.5 is out of range 0.9 .. 1"),
             (["--param", "clustering=none"], "'none' is not one of published|split|leader"),
             (["--config", self.folder / "no.yaml"], "no.yaml: No such file"),
@@ -109,7 +119,7 @@ class Mistakes(Fixture):
 
     def test_outputs_that_cannot_be(self):
         train = ["--train", self.write("good.csv", samples(30, 1))]
-        for option in ("--save", "--json"):
+        for option in ("--save", "--rows", "--json"):
             error = self.refused(1, *self.words(*train, option, self.folder / "no/where"))
             self.assertIn("no/where: No such file", error)
             error = self.refused(1, *self.words(*train, option, self.folder))

@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import lcm
 import synthetic
 from balanced import Balanced
-from reach import report, summary
+from reach import demo, figures, report, summary
 from reach.record import read_log
 
 
@@ -37,6 +37,16 @@ class Report(unittest.TestCase):
         span = np.degrees(0.11)
         np.testing.assert_allclose(hand["rmse_pct"], [100 * 0.5 / span, 0, 0], atol=1e-4)
         self.assertEqual(self.result["solutions_mean"], 2.0)
+
+    def test_the_running_error_follows_where_samples_are_few(self):
+        self.assertEqual([figures.window(n) for n in (10, 30, 70, 150)], [3, 3, 7, 10])
+
+    def test_a_body_wants_few_samples(self):
+        sizes = {name: demo.parse_arguments(["--experts", name]) for name in ("body", "linear")}
+        self.assertEqual([(o.samples, o.tool_samples, o.tests) for o in sizes.values()],
+                         [(30, 10, 20), (150, 150, 50)])  # fmt: skip
+        given = demo.parse_arguments(["--samples", "7", "--tests", "3"])
+        self.assertEqual((given.samples, given.tool_samples, given.tests), (7, 7, 3))
 
     def test_star_on_the_true_track(self):
         star = self.result["star"]["tool"]

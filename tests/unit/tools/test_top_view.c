@@ -1,6 +1,6 @@
 /* What `reachctl top` counts, and the frames that it draws. */
 #include "tests/unit/suite.h"
-#include "tools/reachctl/top_view.h"
+#include "tools/reachctl/view/top_view.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -39,11 +39,12 @@ static void assert_shows(int64_t now, const char *piece)
 
 START_TEST(rates_are_those_of_a_closed_window)
 {
-    struct rates rates = {0};
+    static const char text[1000] = "";
+    static struct rates rates;
 
     for (int i = 0; i < 100; i++)
-        rates_count(&rates, "B", 30, start + i * 20000);
-    rates_count(&rates, "A", 1000, start);
+        rates_count(&rates, "B", text, 30, start + i * 20000);
+    rates_count(&rates, "A", text, 1000, start);
     ck_assert_double_eq(rates_settle(&rates, start + 900000), 0);
     ck_assert_double_eq(rates.rate[0].per_second, 0);
     ck_assert_double_eq(rates_settle(&rates, start + 2000000), 2);
@@ -59,15 +60,82 @@ END_TEST
 
 START_TEST(more_channels_than_rows_are_counted_apart)
 {
-    struct rates rates = {0};
+    static struct rates rates;
     char name[16];
 
     for (int i = 0; i < RATES_MOST + 3; i++) {
-        snprintf(name, sizeof name, "C%03d", i);
-        rates_count(&rates, name, 1, start);
+        snprintf(name, sizeof name, "C%04d", i);
+        rates_count(&rates, name, "", 0, start);
     }
     ck_assert_int_eq(rates.n, RATES_MOST);
     ck_assert_int_eq(rates.uncounted, 3);
+}
+END_TEST
+
+START_TEST(unevenness_is_told)
+{
+    static struct rates rates;
+    int64_t now = start;
+
+    for (int i = 0; i < 50; i++) { /* 19 ms and 21 ms in turn, and once a quarter of a second */
+        rates_count(&rates, "EVEN", "", 0, start + i * 20000);
+        rates_count(&rates, "UNEVEN", "", 0, now);
+        now += i % 2 ? 19000 : 21000;
+    }
+    rates_settle(&rates, start + 1000000);
+    ck_assert_double_eq_tol(rates.rate[0].jitter, 0, 1e-6);
+    ck_assert_double_eq_tol(rates.rate[1].jitter, 1000, 1);
+    rates_count(&rates, "EVEN", "", 0, start + 980000 + 250000);
+    for (int i = 0; i < 3; i++)
+        rates_settle(&rates, start + (2 + i) * 1000000);
+    ck_assert_int_eq(rates.rate[0].longest, 250000); /* it is not forgotten */
+    ck_assert_double_eq(rates.rate[0].jitter, 0);
+}
+END_TEST
+
+START_TEST(types_are_told)
+{
+    reach_robot_state_t robot = {.n_joints = 9};
+    unsigned char data[1024];
+    int size = reach_robot_state_t_encode(data, 0, sizeof data, &robot);
+
+    top_hear(&top, "ROBOT_STATE", data, (size_t)size, start);
+    top_hear(&top, "MINE", "12345678", 8, start);
+    top_hear(&top, "MARKER", data, (size_t)size, start);
+    top_hear(&top, "REACH_TRACE", "12345678", 8, start);
+    assert_shows(start, "reach.robot_state_t");
+    assert_shows(start, "not ours");
+    assert_shows(start, "wrong type");
+    assert_shows(start, "another version");
+}
+END_TEST
+
+START_TEST(who_cannot_keep_up_says_so)
+{
+    top_note_lateness(&top, 400000, start);
+    ck_assert_int_eq(top.late_at, 0);
+    top_note_lateness(&top, 2500000, start);
+    assert_shows(start + 1000000, "cannot keep up: what it shows is up to 2.5 s old");
+    top.dropped = 7;
+    assert_shows(start + 9000000, "7 packets found a full socket");
+    top.late_at = 0;
+    top.dropped = 0;
+}
+END_TEST
+
+START_TEST(names_cannot_command_the_terminal)
+{
+    char *text;
+
+    top_hear(&top,
+             "\033[2J\x9b"
+             "A\n",
+             "", 0, start);
+    text = frame(start, 100, 50, false);
+    ck_assert_ptr_null(strchr(text, '\033'));
+    ck_assert_ptr_null(strchr(text, '\x9b'));
+    ck_assert_ptr_nonnull(strstr(text, "\\x1b[2J\\x9bA\\x0a "));
+    free(text);
 }
 END_TEST
 
@@ -164,6 +232,10 @@ int main(void)
 {
     const TTest *tests[] = {rates_are_those_of_a_closed_window,
                             more_channels_than_rows_are_counted_apart,
+                            unevenness_is_told,
+                            types_are_told,
+                            who_cannot_keep_up_says_so,
+                            names_cannot_command_the_terminal,
                             a_frame_says_what_was_heard,
                             robot_time_is_compared_to_the_walls,
                             a_message_of_another_layout_is_only_counted,

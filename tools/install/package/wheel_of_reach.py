@@ -20,8 +20,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 # The rest wants the tree.
 MODULES = (
-    "__init__", "bus", "client", "command_line", "event_log", "export", "learner", "messages",
-    "record", "recording", "view",
+    "__init__", "bus", "client", "command_line", "event_log", "export", "learner", "log_stream",
+    "mcap_file", "mcap_writer", "message_fields", "messages", "protobuf", "record", "recording",
+    "samples", "table_files", "tables", "view",
 )  # fmt: skip
 EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"], "rerun": ["rerun-sdk"]}
 SCRIPTS = {"reach-export": "reach.export:main"}
@@ -63,8 +64,7 @@ def _bindings(folder: Path) -> dict[str, bytes]:
         raise SystemExit("reach: lcm-gen is missing: apt-get install liblcm-bin") from None
     files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.py")}
     files["reach_lcm/__init__.py"] = files.get("reach_lcm/__init__.py", b"")
-    own = (ROOT / "lcmtypes").glob("*.lcm")
-    return files | {f"reach/lcmtypes/{path.name}": path.read_bytes() for path in own}
+    return files | {f"reach/{path.relative_to(ROOT)}": path.read_bytes() for path in types}
 
 
 def _content() -> dict[str, bytes]:

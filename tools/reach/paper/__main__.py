@@ -38,7 +38,8 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     add("--seeds", type=_count, metavar="N",
         help="number of seeds, each a run; default 5, with --quick 1")  # fmt: skip
     add("--learner", nargs="+", choices=LEARNER_NAMES, default=LEARNER_NAMES,
-        help="imle (as shipped), linear (IMLE as published), lwpr; default all")  # fmt: skip
+        help="body (ours, which ships), polynomial, linear (IMLE as published), lwpr;"
+             " default all")  # fmt: skip
     add("--quick", action="store_true", help="few samples and one seed: a smoke check")
     add("--any-version", action="store_true",
         help="keep complete runs that other versions of the programs made")  # fmt: skip

@@ -55,13 +55,13 @@ def errors(data: Data):
     borders = _borders(data)
     tests = [series.wide(data.first(f"k1_test_{ball}"), "x") for ball in ("hand", "tool")]
     scale = 100 / metrics.union_range(*tests)
-    for learner, colour in LEARNERS.items():
+    for learner, style in LEARNERS.items():
         curves = [_switching(curve, borders) for curve in data.all(f"k1_curve_{learner}")]
         if curves:
             counts = curves[0][0]
             for axis, factor in ((axes[0, 0], np.ones(3)), (axes[1, 0], scale)):
                 means = np.array([(rows * factor).mean(axis=1) for _, rows in curves])
-                band(axis, counts, means, color=colour, label=LEARNER_WORDS[learner])
+                band(axis, counts, means, label=LEARNER_WORDS[learner], **style)
     for ball in ("hand", "tool"):
         live = data.first(f"k1_live_{ball}")
         for kind, marker in (("true", "D"), ("measured", "o")):
@@ -107,6 +107,6 @@ FIGURES = [
            "K1.s1.pitch_noise_pct", "K1.s1.disparity_noise_pct", "K1.s1.yaw_measured_pct",
            "K1.s1.pitch_measured_pct", "K1.s1.disparity_measured_pct", "K1.s1.change_pct",
            "K1.tool.samples_to_2x"),
-          ("k1_curve_imle", "k1_curve_linear", "k1_curve_lwpr", "k1_live_hand", "k1_live_tool"),
+          (*(f"k1_curve_{name}" for name in LEARNERS), "k1_live_hand", "k1_live_tool"),
           errors),
 ]  # fmt: skip

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..figures import canvas
+from ..programs import OURS
 from . import series
 from .drawing import LEARNER_WORDS, LEARNERS, Data, Shown, band, legend
 
@@ -12,7 +13,7 @@ _AXES = ("x, m", "y, m", "z, m")
 def errors(data: Data):
     """Test set S1, S2, and the set of the tool in the hand."""
     figure, axes = canvas(1, 3, 3.6, sharey=True)
-    for learner, colour in LEARNERS.items():
+    for learner, style in LEARNERS.items():
         curves = data.all("i1_curve", learner)
         if not curves:
             continue
@@ -23,7 +24,7 @@ def errors(data: Data):
         tool = (counts > _end_of_phase(counts, 1)) & (counts <= _end_of_phase(counts, 2))
         shown = (s1, s2, np.where(tool, s2, s1))
         for axis, rows in zip(axes[0], shown, strict=True):
-            band(axis, counts[third], rows[:, third], color=colour, label=LEARNER_WORDS[learner])
+            band(axis, counts[third], rows[:, third], label=LEARNER_WORDS[learner], **style)
     for axis, title in zip(axes[0], ("S1, hand", "S2, stick", "as in the hand"), strict=True):
         axis.set(title=title, xlabel="training samples", yscale="log")
         axis.locator_params(axis="x", nbins=4)
@@ -45,7 +46,7 @@ def _cube(axis, data: Data, name: str, learner: str, title: str) -> None:
         return
     rows = data.first(name, learner)
     x, wanted = series.wide(rows, "x"), series.wide(rows, "target")
-    axis.plot(*x.T, color=LEARNERS[learner], lw=1)
+    axis.plot(*x.T, color=LEARNERS[learner]["color"], lw=1)
     axis.plot(*np.unique(wanted, axis=0).T, "k+", ms=7, ls="none")
     for which, limits in zip("xyz", np.stack([wanted.min(0) - 0.05, wanted.max(0) + 0.05]).T,
                              strict=True):  # fmt: skip
@@ -55,11 +56,12 @@ def _cube(axis, data: Data, name: str, learner: str, title: str) -> None:
 
 
 def cubes(*shown: tuple[str, str, str]):
-    """(series, learner, title) side by side."""
+    """(series, learner, title), two in a row."""
 
     def draw(data: Data):
-        figure, axes = canvas(1, len(shown), 3.6, subplot_kw={"projection": "3d"})
-        for axis, (name, learner, title) in zip(axes[0], shown, strict=True):
+        rows = (len(shown) + 1) // 2
+        figure, axes = canvas(rows, 2, 3.6 * rows, subplot_kw={"projection": "3d"})
+        for axis, (name, learner, title) in zip(axes.flat, shown, strict=True):
             _cube(axis, data, name, learner, title)
         return figure
 
@@ -73,7 +75,7 @@ def _by_learner(name: str):
 def error_in_time(data: Data):
     figure, axes = canvas()
     rows = data.first("i2_hand")
-    axes[0, 0].plot(rows["t"], rows["error"], color=LEARNERS["imle"])
+    axes[0, 0].plot(rows["t"], rows["error"], **LEARNERS[OURS])
     axes[0, 0].set(xlabel="time, s", ylabel="sum of absolute components, m", ylim=(0, None))
     return figure
 
@@ -81,8 +83,8 @@ def error_in_time(data: Data):
 def _shown(number: str, title: str, name: str) -> Shown:
     caption = ("Track of the end-effector through the cube's corners (+) and two diagonals, model"
                " frozen.")  # fmt: skip
-    return Shown(number, title, caption, (f"I2.{name}.", f"I2.linear.{name}.", f"I2.lwpr.{name}."),
-                 (f"i2_{name}",), _by_learner(name))  # fmt: skip
+    rows = (f"I2.{name}.", *(f"I2.{other}.{name}." for other in LEARNERS if other != OURS))
+    return Shown(number, title, caption, rows, (f"i2_{name}",), _by_learner(name))
 
 
 FIGURES = [
@@ -97,12 +99,12 @@ FIGURES = [
     _shown("9", "Cube with the hand, after babbling with the stick", "hand_after_stick"),
     Shown("10", "Cube after a third babbling, with the hand", "Ours: hand and stick.",
           ("I2.hand_third.", "I2.stick_third."), ("i2_hand_third", "i2_stick_third"),
-          cubes(("i2_hand_third", "imle", "hand"), ("i2_stick_third", "imle", "stick"))),
+          cubes(("i2_hand_third", OURS, "hand"), ("i2_stick_third", OURS, "stick"))),
     Shown("11", "Cube with a stick that was never babbled with",
           "Ours, learning while it reaches: iterations 1 and 3.",
           ("I2.stick_new_1.", "I2.stick_new_3."), ("i2_stick_new_1", "i2_stick_new_3"),
-          cubes(("i2_stick_new_1", "imle", "iteration 1"),
-                ("i2_stick_new_3", "imle", "iteration 3"))),
+          cubes(("i2_stick_new_1", OURS, "iteration 1"),
+                ("i2_stick_new_3", OURS, "iteration 3"))),
     _shown("12", "Cube with the L, after babbling with it", "L"),
     _shown("13", "Cube with the L, after more babbling with the hand", "L_later"),
 ]  # fmt: skip

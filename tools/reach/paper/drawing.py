@@ -8,12 +8,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import figures
+from ..programs import OURS
 from . import series
 
 COLOURS = figures.COLOURS
 MEASURED = "#b5b5b5"
-LEARNERS = {"imle": "#1f5fa8", "linear": "#2f8f5b", "lwpr": "#b3261e"}
-LEARNER_WORDS = {"imle": "ours", "linear": "IMLE as published", "lwpr": "LWPR"}
+LEARNERS = figures.LEARNERS
+LEARNER_WORDS = {OURS: "ours", "polynomial": "polynomials", "linear": "IMLE as published",
+                 "lwpr": "LWPR"}  # fmt: skip
 
 
 @dataclass
@@ -26,13 +28,13 @@ class Data:
     def has(self, learner: str) -> bool:
         return bool(self.folders.get(learner))
 
-    def first(self, name: str, learner: str = "imle") -> dict[str, np.ndarray]:
+    def first(self, name: str, learner: str = OURS) -> dict[str, np.ndarray]:
         return series.read(self.path(name, learner))
 
-    def path(self, name: str, learner: str = "imle") -> Path:
+    def path(self, name: str, learner: str = OURS) -> Path:
         return self.folders[learner][0] / f"{name}.csv"
 
-    def all(self, name: str, learner: str = "imle") -> list[dict[str, np.ndarray]]:
+    def all(self, name: str, learner: str = OURS) -> list[dict[str, np.ndarray]]:
         """Of every seed that has it."""
         paths = [folder / f"{name}.csv" for folder in self.folders.get(learner, [])]
         return [series.read(path) for path in paths if path.exists()]
@@ -49,7 +51,7 @@ class Shown:
     rows: tuple[str, ...]
     series: tuple[str, ...]
     draw: Callable[[Data], Figure]
-    learner: str = "imle"  # without whose runs it cannot be drawn
+    learner: str = OURS  # without whose runs it cannot be drawn
 
 
 def legend(figure, axis, columns: int = 5) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import summary
 from ..experiment import Experiment
+from ..programs import OURS
 from ..record import Record
 from . import draw_explore, icub, kobian, replay, series, track
 from .drawing import Shown
@@ -45,7 +46,7 @@ class Explore:
     def settings(self, quick: bool, learner: str) -> dict:
         """Numbers of samples after which it reaches, and seconds for each target."""
         sizes = self.quick if quick else self.full
-        return sizes | ({"seconds": 1.0} if quick and learner != "imle" else {})
+        return sizes | ({"seconds": 0.5} if quick and learner != OURS else {})
 
     def overlays(self, learner: str) -> list[Path]:
         return replay.overlays(replay.ICUB if self.robot == "icub" else replay.KOBIAN, learner)

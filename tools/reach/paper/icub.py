@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..experiment import Experiment
-from ..programs import ROOT
+from ..programs import OURS, ROOT
 from ..record import Record
 from . import draw_icub, i1, i2, replay
 from .drawing import Shown
@@ -26,10 +26,13 @@ MIDDLES = {"none": np.array([0.42, -0.05, 0.65]), "stick": np.array([0.42, -0.05
 
 _FULL = {"samples": 100_000, "tests": 30_000, "cube_seconds": 20.0}
 _QUICK = {"samples": 4_000, "tests": 2_000, "cube_seconds": 2.0}
+_QUICK_RIVAL = {"samples": 2_000, "tests": 1_000, "cube_seconds": 1.0}
 
 
 def settings(quick: bool, learner: str) -> dict:
-    return _QUICK if quick else _FULL
+    if not quick:
+        return _FULL
+    return _QUICK if learner == OURS else _QUICK_RIVAL
 
 
 def overlays(learner: str) -> list[Path]:

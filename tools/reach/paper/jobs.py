@@ -9,8 +9,9 @@ import contextlib
 import ctypes
 import multiprocessing
 import os
+import signal
 import subprocess
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from multiprocessing.connection import Connection, wait
 
 from ..processes import die_with_parent
@@ -21,6 +22,7 @@ from .plan import Run
 
 LOOK_SECONDS = 0.5  # between two looks at whether the user wants an end
 _CLONE_NEWNET = 0x40000000
+_ENDING = (signal.SIGINT, signal.SIGTERM)
 
 # What a run does: it is told where to say how far it is, and returns what the user should know.
 Task = Callable[[Run, "Told"], str | None]
@@ -73,11 +75,13 @@ class Jobs:
         process = multiprocessing.get_context("fork").Process(
             target=self._work, args=(run, processors, theirs)
         )
-        process.start()
+        with _end_held_back():
+            process.start()
         theirs.close()
         self._working[ours] = _Worker(run, process, processors)
 
     def _work(self, run: Run, processors: set[int], connection: Connection) -> None:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)
         die_with_parent()
         os.sched_setaffinity(0, processors)
         try:
@@ -128,6 +132,17 @@ class _Worker:
         self.process = process
         self.processors = processors
         self.told_end = False
+
+
+@contextlib.contextmanager
+def _end_held_back() -> Iterator[None]:
+    """A new process forgets the signals that came before its interpreter's first step; those that
+    are blocked wait for it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _enter_network() -> None:

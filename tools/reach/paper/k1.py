@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import metrics, summary
+from ..programs import OURS
 from ..record import Record
 from . import replay, series
 from .rows import Row
@@ -98,7 +99,7 @@ def _curves(record: Record, run: dict, folder: Path, samples: dict,
     phases = [_stream(samples[name]) for name in LEARNED]
     tests = {key: _true_stream(record, samples[name]) for key, name in SETS.items()}
     counts = replay.counts([len(rows) for rows in phases])
-    learners = tuple(replay.KOBIAN.overlays) if run["learner"] == "imle" else (run["learner"],)
+    learners = replay.learners(replay.KOBIAN) if run["learner"] == OURS else (run["learner"],)
     result = {}
     for learner in learners:
         curve = replay.curve(replay.KOBIAN, learner, phases, tests, counts)

@@ -7,7 +7,7 @@ import numpy as np
 from .. import metrics
 from ..demo import BABBLE_SECONDS
 from ..experiment import Experiment
-from ..programs import ROOT
+from ..programs import OURS, ROOT
 from ..record import Record
 from . import draw_babbling, draw_reaching, k1, k2, k3, k4, replay, track
 from .drawing import Shown
@@ -22,16 +22,16 @@ PREPARE_SECONDS = 4.0  # robot time before the first target, about; for the time
 # Sizes: samples with hand, tool, hand; tests each time; seconds for each target of K2 and K3.
 _FULL = {"hand": 500, "tool": 500, "again": 300, "tests": 100, "turn_seconds": 2.0,
          "star_seconds": 4.0}  # fmt: skip
-_QUICK = {"hand": 25, "tool": 25, "again": 8, "tests": 5, "turn_seconds": 1.2,
-          "star_seconds": 1.5}  # fmt: skip
-_QUICK_RIVAL = {"hand": 12, "tool": 12, "again": 3, "tests": 3, "turn_seconds": 1.2,
-                "star_seconds": 1.0}  # fmt: skip
+_QUICK = {"hand": 30, "tool": 10, "again": 5, "tests": 4, "turn_seconds": 1.15,
+          "star_seconds": 2.0}  # fmt: skip
+_QUICK_RIVAL = {"hand": 6, "tool": 6, "again": 1, "tests": 2, "turn_seconds": 1.15,
+                "star_seconds": 0.6}  # fmt: skip
 
 
 def settings(quick: bool, learner: str) -> dict:
     if not quick:
         return _FULL
-    return _QUICK if learner == "imle" else _QUICK_RIVAL
+    return _QUICK if learner == OURS else _QUICK_RIVAL
 
 
 def overlays(learner: str) -> list[Path]:

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..programs import BINARIES, LEARNERS, ROOT
+from ..programs import BINARIES, LEARNERS, OURS, ROOT
 from . import packed
 
-LEARNER_NAMES = ("imle", *LEARNERS)  # what ships, published IMLE, LWPR
+LEARNER_NAMES = (OURS, *LEARNERS)
 
 
 @dataclass(frozen=True)

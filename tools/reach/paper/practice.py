@@ -13,7 +13,7 @@ import numpy as np
 from .. import summary
 from ..demo import BABBLE_SECONDS
 from ..experiment import Experiment
-from ..programs import POLYNOMIAL, ROOT
+from ..programs import OURS, ROOT
 from ..record import Record
 from . import kobian, series, track
 from .drawing import Shown
@@ -31,7 +31,7 @@ class Practice:
     allowed: bool
 
     EXPERIMENTS = ("E3",)
-    LEARNERS = ("imle",)
+    LEARNERS = (OURS,)
 
     @property
     def NAME(self) -> str:  # noqa: N802 - what other groups have as a constant
@@ -42,7 +42,7 @@ class Practice:
         return {"samples": 3, "seconds": 1.5 if quick else 3.0}
 
     def overlays(self, learner: str) -> list[Path]:
-        return [POLYNOMIAL, *([ROOT / "etc/practice.yaml"] if self.allowed else [])]
+        return [ROOT / "etc/practice.yaml"] if self.allowed else []
 
     def configurations(self) -> list[Path]:
         return kobian.configurations()

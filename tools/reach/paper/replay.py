@@ -1,7 +1,9 @@
 """A recorded stream of samples, learned once more by reach-eval: curves of error against samples.
 
 The learner is that of the daemon: its configuration files are translated to reach-eval's
-parameters, whose names are those of struct learner_config.
+parameters, whose names are those of struct learner_config. Angles of outputs are in degrees there:
+reach-eval takes the solution for the closest whose outputs, all as they are, differ least, and
+beside pixels a radian would count for nothing.
 """
 
 import json
@@ -13,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from ..programs import BINARIES, LEARNERS, POLYNOMIAL, ROOT
+from ..programs import BINARIES, LEARNERS, OURS, ROOT
 
 
 class ReplayError(Exception):
@@ -22,27 +24,32 @@ class ReplayError(Exception):
 
 @dataclass(frozen=True)
 class Robot:
-    """Configuration of the daemon, that of other learners after it, and which of its options is the
-    noise of each output."""
+    """Configuration of the daemon, that of learners other than ours after it, and which of its
+    options is the noise of each output."""
 
     configuration: Path
     overlays: dict[str, Path]
     noise: tuple[str, ...]
 
+    @property
+    def degrees(self) -> np.ndarray:
+        """What a message's outputs are multiplied by for reach-eval."""
+        return np.array([np.degrees(1) if name.endswith("_angle") else 1.0 for name in self.noise])
+
 
 KOBIAN = Robot(
     ROOT / "etc/kobian.yaml",
-    {"imle": POLYNOMIAL, **LEARNERS},
+    LEARNERS,
     ("noise_angle", "noise_angle", "noise_disparity"),
 )
 ICUB = Robot(
     ROOT / "etc/icub.yaml",
-    {"imle": POLYNOMIAL, **{name: ROOT / f"etc/icub-{name}.yaml" for name in LEARNERS}},
+    LEARNERS | {name: ROOT / f"etc/icub-{name}.yaml" for name in ("linear", "lwpr")},
     ("noise_position",) * 3,
 )
 
 # All others have the same names for both.
-_DAEMON_ONLY = {"kind", "queue", "quota", "body.order"}
+_DAEMON_ONLY = {"kind", "queue", "quota", "body.order", "body.start", "body.tip"}
 # Those of other shape or unit: standard deviations, degrees, and numbers of each output, of which a
 # file may have those of other robots, too.
 _CONVERTED = {"reach", "reference"}
@@ -58,9 +65,20 @@ def options(robot: Robot, learner: str) -> dict:
 
 
 def overlays(robot: Robot, learner: str) -> list[Path]:
-    """Configuration of the daemon after the robot's. The paper's robots learn from features of the
-    joints alone, so no learner here has a body."""
-    return [robot.overlays[learner]]
+    """Configuration of the daemon after the robot's."""
+    return [] if learner == OURS else [robot.overlays[learner]]
+
+
+def learners(robot: Robot) -> tuple[str, ...]:
+    return (OURS, *robot.overlays)
+
+
+def input_order(given: dict, n_inputs: int) -> list[int]:
+    """Inputs in the order in which reach-eval gets them: experts on a body want the joints from the
+    base to the tip, and the daemon's option that says so is none of reach-eval's."""
+    has_body = given["kind"] == "imle" and given["experts"] == "body"
+    order = given.get("body.order") if has_body else None
+    return [number - 1 for number in order] if order else list(range(n_inputs))
 
 
 def _flat(nested: dict, prefix: str = "") -> dict:
@@ -78,23 +96,23 @@ def parameters(robot: Robot, given: dict) -> list[str]:
     is_lwpr = given["kind"] == "lwpr"
     norms = [name.replace("noise", "lwpr.norm") for name in robot.noise]
     result = {
-        "psi0": [_radians(name, given[name]) ** 2 for name in robot.noise],
+        "psi0": [float(given[name]) ** 2 for name in robot.noise],
         "sigma0": float(given["reach"]) ** 2,
-        "reference": [float(np.radians(float(angle))) for angle in given["reference"]],
+        "reference": [
+            float(np.radians(float(given["reference"][i])))
+            for i in input_order(given, len(given["reference"]))
+        ],
     }
     if is_lwpr:
-        result["lwpr.norm_out"] = [_radians(name, given[name]) for name in norms]
+        result["lwpr.norm_out"] = [float(given[name]) for name in norms]
     for name, value in given.items():
         converted = name in _CONVERTED or name.startswith(_OF_OUTPUTS)
         of_kind = is_lwpr or not name.startswith("lwpr.")
         if name not in _DAEMON_ONLY and not converted and of_kind:
             result[name] = value
+    if "body.degrees" in result:
+        result["body.degrees"] = True
     return [f"{name}={_text(value)}" for name, value in result.items()]
-
-
-def _radians(name: str, value) -> float:
-    """In the unit of the messages."""
-    return float(np.radians(float(value))) if name.endswith("_angle") else float(value)
 
 
 def _text(value) -> str:
@@ -118,29 +136,35 @@ def counts(lengths: list[int], early: int = 5, later: int = 20, window: int = 20
 
 def curve(robot: Robot, learner: str, phases: list[np.ndarray], tests: dict[str, np.ndarray],
           at: np.ndarray) -> dict[str, np.ndarray]:  # fmt: skip
-    """Teaches the phases' rows (inputs, outputs) in order.
+    """Teaches the phases' rows (inputs, outputs as in messages) in order.
 
     By test set: RMSE of the solution closest to the set's output, a row for each count; and the
     number of experts."""
     given = options(robot, learner)
     n_outputs = len(robot.noise)
     n_inputs = phases[0].shape[1] - n_outputs
+    order = input_order(given, n_inputs)
+
+    def write(path: Path, rows: np.ndarray) -> Path:
+        return _write(path, np.hstack([rows[:, order], rows[:, n_inputs:] * robot.degrees]))
+
     with tempfile.TemporaryDirectory(prefix="reach-replay-") as name:
         folder = Path(name)
-        train = [_write(folder / f"train{i}.csv", rows) for i, rows in enumerate(phases)]
+        train = [write(folder / f"train{i}.csv", rows) for i, rows in enumerate(phases)]
         report = folder / "report.json"
         command = [BINARIES / "reach-eval", "--learner", given["kind"], "--quiet",
                    "--inputs", n_inputs, "--outputs", n_outputs, "--config", _empty(folder),
                    "--train", ",".join(map(str, train)), "--at", ",".join(map(str, at)),
                    "--json", report]  # fmt: skip
         for key, rows in tests.items():
-            command += ["--test", f"{key}={_write(folder / f'{key}.csv', rows)}"]
+            command += ["--test", f"{key}={write(folder / f'{key}.csv', rows)}"]
         command += [word for text in parameters(robot, given) for word in ("--param", text)]
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         if done.returncode != 0:
             raise ReplayError(done.stderr.strip())
         results = json.loads(report.read_text())["results"]
-    errors = {key: _array([r["test"][key]["closest"]["rmse"] for r in results]) for key in tests}
+    errors = {key: _array([r["test"][key]["closest"]["rmse"] for r in results]) / robot.degrees
+              for key in tests}  # fmt: skip
     return {**errors, "experts": np.array([r["experts"] for r in results])}
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..programs import OURS
+
 
 @dataclass(frozen=True)
 class Row:
@@ -18,7 +20,7 @@ class Row:
     paper: float | str | None = None
     bar: float | None = None
     at_least: bool = False
-    learner: str = "imle"
+    learner: str = OURS
     key: str = ""
 
     @property
@@ -45,12 +47,12 @@ def lost(experiment: str) -> Row:
 
 def of_learner(rows: Iterable[Row], learner: str, always: bool = False) -> list[Row]:
     """The same numbers of another learner: K1.s1.yaw_pct becomes K1.lwpr.s1.yaw_pct, with nothing
-    asked. With `always`, imle is named too, and keeps what is asked."""
+    asked. With `always`, ours is named too, and keeps what is asked."""
     result = []
     for row in rows:
         head, _, tail = row.id.partition(".")
         named = f"{head}.{learner}.{tail}"
-        if learner == "imle":
+        if learner == OURS:
             result.append(replace(row, id=named, key=row.id) if always else row)
         else:
             result.append(replace(row, id=named, key=row.id, learner=learner, bar=None,

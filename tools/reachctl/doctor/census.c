@@ -1,6 +1,7 @@
 #include "tools/reachctl/doctor/census.h"
 
 #include "common/bus/refusals_text.h"
+#include "common/program/printable.h"
 
 #include <arpa/inet.h>
 #include <math.h>
@@ -145,16 +146,17 @@ static void report_role(const struct census *census, int role, const char *ours,
 
     for (int i = 0; i < census->n_answers; i++) {
         const char *revision = (const char *)census->answers[i].revision;
-        int most = (int)sizeof census->answers[i].revision;
+        size_t most = sizeof census->answers[i].revision;
+        char text[4 * sizeof census->answers[i].revision + 1];
         if (census->answers[i].role != role)
             continue;
         answered++;
-        if (strncmp(revision, ours, (size_t)most) == 0) {
+        if (strncmp(revision, ours, most) == 0) {
             findings_add(findings, VERDICT_OK, "version", "%s %s", roles[role], ours);
             continue;
         }
-        findings_add(findings, VERDICT_FINDING, "version", "%s is %.*s, reachctl is %s",
-                     roles[role], (int)strnlen(revision, (size_t)most), revision, ours);
+        findings_add(findings, VERDICT_FINDING, "version", "%s is %s, reachctl is %s", roles[role],
+                     printable(revision, most, text, sizeof text), ours);
         findings_remedy(findings, "./run build, and start %s anew", roles[role]);
     }
     if (!answered)

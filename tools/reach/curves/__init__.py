@@ -1,0 +1,1 @@
+"""`./run accuracy --curves`: errors of four learners against samples, as one picture."""

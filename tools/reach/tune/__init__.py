@@ -1,0 +1,1 @@
+"""reach-tune: parameters of the learner for samples of a user's own."""

@@ -1,0 +1,228 @@
+#include "tools/reachctl/view/show.h"
+
+#include "common/bus/refusals_text.h"
+#include "common/bus/status_words.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <unistd.h>
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+const char *show_state(const reach_status_t *status)
+{
+    return status_state_word(status->state);
+}
+
+const char *show_behaviour(const reach_status_t *status)
+{
+    return status_behaviour_word(status->behaviour);
+}
+
+const char *show_phase(const reach_status_t *status)
+{
+    return status_phase_word(status->phase);
+}
+
+static const char *result_word(const reach_status_t *status)
+{
+    return status_result_word(status->request_result);
+}
+
+void show_body(const reach_status_t *status, char *text, size_t size)
+{
+    const char *word = status_body_word(status->body);
+
+    if (status->body == REACH_STATUS_T_BODY_FOUND)
+        snprintf(text, size, "%s from %d samples, off by %.2f times the noise, unsure by %.2f %%",
+                 word, status->body_samples, status->body_error, 100 * status->body_doubt);
+    else
+        snprintf(text, size, "%s", word);
+}
+
+double show_error(const reach_status_t *status)
+{
+    return status->space == REACH_STATUS_T_CARTESIAN ? 1e3 * status->error : status->error;
+}
+
+const char *show_error_unit(const reach_status_t *status)
+{
+    return status->space == REACH_STATUS_T_CARTESIAN ? "mm" : "px";
+}
+
+void show_text(const reach_status_t *status, FILE *out)
+{
+    char body[128], fault[128], refused[512];
+
+    show_body(status, body, sizeof body);
+    fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
+            show_behaviour(status), show_phase(status));
+    status_fault_text(status, fault, sizeof fault);
+    if (status->fault != REACH_STATUS_T_FAULT_NONE)
+        fprintf(out, "fault      %s; reachctl reset-fault leaves it\n", fault);
+    fprintf(out, "progress   %d of %d, %d given up; error %.1f %s\n", status->progress,
+            status->progress_total, status->skipped, show_error(status), show_error_unit(status));
+    fprintf(out, "marker     %s%s\n", status->marker_seen ? "seen" : "not seen",
+            status->fixated ? ", fixated" : "");
+    fprintf(out, "model      %lld samples, %d experts, %d solutions, in use %d; context %d of %d\n",
+            (long long)status->samples, status->experts, status->solutions, status->solution,
+            status->context, status->contexts);
+    fprintf(out, "body       %s; %lld searches\n", body, (long long)status->body_searches);
+    fprintf(out, "disk       %lld of the model's %lld samples are stored%s\n",
+            (long long)status->samples_stored, (long long)status->model_samples,
+            status->storing ? "" : "; nothing is being stored");
+    fprintf(out,
+            "tick       %lld; %.0f us now, %.0f mean, %.0f p99.9, %.0f largest; wake-up %.0f\n",
+            (long long)status->seq, status->compute_us, status->compute_mean_us,
+            status->compute_p999_us, status->compute_max_us, status->wakeup_us);
+    fprintf(out,
+            "trouble    %lld overruns, %lld slips, %lld bad inputs, %lld gated, %lld dropped\n",
+            (long long)status->overruns, (long long)status->slips, (long long)status->bad_inputs,
+            (long long)status->gated, (long long)status->dropped_samples);
+    refusals_text(status, NULL, refused, sizeof refused);
+    if (refused[0])
+        fprintf(out, "refused    %s\n", refused);
+    fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
+            (long long)status->request_seq, result_word(status));
+}
+
+enum field_type { FIELD_INT8, FIELD_INT32, FIELD_INT64, FIELD_DOUBLE };
+
+static const struct field {
+    const char *name;
+    enum field_type type;
+    size_t offset;
+} fields[] = {
+#define FIELD(name, type)                                                                          \
+    {                                                                                              \
+#name, type, offsetof(reach_status_t, name)                                                \
+    }
+    FIELD(utime, FIELD_INT64),
+    FIELD(seq, FIELD_INT64),
+    FIELD(state_seq, FIELD_INT64),
+    FIELD(request_seq, FIELD_INT64),
+    FIELD(model_request_seq, FIELD_INT64),
+    FIELD(progress, FIELD_INT32),
+    FIELD(progress_total, FIELD_INT32),
+    FIELD(skipped, FIELD_INT32),
+    FIELD(marker_seen, FIELD_INT8),
+    FIELD(fixated, FIELD_INT8),
+    FIELD(space, FIELD_INT8),
+    FIELD(error, FIELD_DOUBLE),
+    FIELD(samples, FIELD_INT64),
+    FIELD(model_samples, FIELD_INT64),
+    FIELD(samples_stored, FIELD_INT64),
+    FIELD(storing, FIELD_INT8),
+    FIELD(store_waits, FIELD_INT64),
+    FIELD(experts, FIELD_INT32),
+    FIELD(solutions, FIELD_INT32),
+    FIELD(solution, FIELD_INT32),
+    FIELD(contexts, FIELD_INT32),
+    FIELD(context, FIELD_INT32),
+    FIELD(body_samples, FIELD_INT32),
+    FIELD(body_error, FIELD_DOUBLE),
+    FIELD(body_doubt, FIELD_DOUBLE),
+    FIELD(body_searches, FIELD_INT64),
+    FIELD(compute_us, FIELD_DOUBLE),
+    FIELD(compute_mean_us, FIELD_DOUBLE),
+    FIELD(compute_p999_us, FIELD_DOUBLE),
+    FIELD(compute_max_us, FIELD_DOUBLE),
+    FIELD(wakeup_us, FIELD_DOUBLE),
+    FIELD(wakeup_mean_us, FIELD_DOUBLE),
+    FIELD(wakeup_p999_us, FIELD_DOUBLE),
+    FIELD(wakeup_max_us, FIELD_DOUBLE),
+    FIELD(overruns, FIELD_INT64),
+    FIELD(slips, FIELD_INT64),
+    FIELD(page_faults, FIELD_INT64),
+    FIELD(queue, FIELD_INT32),
+    FIELD(dropped_samples, FIELD_INT64),
+    FIELD(bad_inputs, FIELD_INT64),
+    FIELD(refused_state, FIELD_INT64),
+    FIELD(refused_joint, FIELD_INT32),
+    FIELD(refused_value, FIELD_DOUBLE),
+    FIELD(refused_min, FIELD_DOUBLE),
+    FIELD(refused_max, FIELD_DOUBLE),
+    FIELD(gated, FIELD_INT64),
+    FIELD(staleness, FIELD_DOUBLE),
+#undef FIELD
+};
+
+/* JSON has no infinity and no NaN. */
+static void print_number(double value, FILE *out)
+{
+    if (isfinite(value))
+        fprintf(out, "%.17g", value);
+    else
+        fputs("null", out);
+}
+
+static void print_field(const reach_status_t *status, const struct field *field, FILE *out)
+{
+    const void *at = (const char *)status + field->offset;
+
+    switch (field->type) {
+    case FIELD_INT8:
+        fprintf(out, "%d", *(const int8_t *)at);
+        break;
+    case FIELD_INT32:
+        fprintf(out, "%d", *(const int32_t *)at);
+        break;
+    case FIELD_INT64:
+        fprintf(out, "%lld", (long long)*(const int64_t *)at);
+        break;
+    case FIELD_DOUBLE:
+        print_number(*(const double *)at, out);
+        break;
+    }
+}
+
+static void print_list(const char *name, const double *values, int n, FILE *out)
+{
+    fprintf(out, ", \"%s\": [", name);
+    for (int i = 0; i < n && i < 8; i++) {
+        fputs(i ? ", " : "", out);
+        print_number(values[i], out);
+    }
+    fputc(']', out);
+}
+
+void show_json(const reach_status_t *status, FILE *out)
+{
+    fprintf(out, "{\"state\": \"%s\", \"behaviour\": \"%s\", \"phase\": \"%s\"", show_state(status),
+            show_behaviour(status), show_phase(status));
+    fprintf(out, ", \"fault\": \"%s\"", status_fault_word(status->fault));
+    fprintf(out, ", \"body\": \"%s\"", status_body_word(status->body));
+    fprintf(out, ", \"request_result\": \"%s\"", result_word(status));
+    for (size_t i = 0; i < COUNT(fields); i++) {
+        fprintf(out, ", \"%s\": ", fields[i].name);
+        print_field(status, &fields[i], out);
+    }
+    print_list("x_predicted", status->x_predicted, status->n_outputs, out);
+    print_list("x_estimated", status->x_estimated, status->n_outputs, out);
+    fputs("}\n", out);
+}
+
+void show_progress(const reach_status_t *status)
+{
+    if (!isatty(STDERR_FILENO))
+        return;
+    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f %s\033[K",
+            show_behaviour(status), show_phase(status), status->progress, status->progress_total,
+            status->skipped, status->experts, show_error(status), show_error_unit(status));
+}
+
+void show_end(const reach_status_t *at_work, const reach_status_t *after)
+{
+    bool has_target = at_work->behaviour == REACH_STATUS_T_REACH ||
+                      at_work->behaviour == REACH_STATUS_T_COORDINATE;
+
+    if (isatty(STDERR_FILENO))
+        fputs("\r\033[K", stderr);
+    printf("%s: %d of %d, %d given up; %d experts", show_behaviour(at_work), after->progress,
+           after->progress_total, after->skipped, after->experts);
+    if (has_target)
+        printf("; error %.1f %s", show_error(at_work), show_error_unit(at_work));
+    putchar('\n');
+}
