@@ -75,6 +75,8 @@ static const struct option_row table[] = {
            "standstill of the loop after which the watchdog brakes the arm; at least 3 periods"),
     NUMBER("safety.following", safety_following, "deg", "2", 0.01, 360,
            "motion that a joint may miss in 0.25 s, besides half of what was commanded"),
+    NUMBER("safety.following_time", safety_following_time, "s", "10", 0.01, 3600,
+           "time of motion for which a joint that did follow misses more, until it is a fault"),
     NUMBER("safety.jump", safety_jump, "deg", "5", 0.1, 360,
            "farther than its safety velocity allows, a joint that moved between two states jumped"),
     COUNT("safety.overruns_fault", safety_overruns_fault, "10", 1, 100000,

@@ -37,7 +37,7 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
     const struct learner_prediction *prediction = predict_at(tick, pair->q);
     reach_sample_t *sample = &outputs->sample;
     /* Nothing of joints that may not be where they seem to be. */
-    bool learns = tick->behaviour.learn && !following_doubts(&tick->following);
+    bool learns = tick->behaviour.learn && !tick->following.doubts;
 
     memset(sample, 0, sizeof *sample);
     sample->utime = pair->utime;

@@ -3,10 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-static const double window = 0.25; /* s; a joint that slowly leans on something is no trouble */
+static const double window = 0.25;      /* s */
 static const double look_period = 0.02; /* s, at least */
 static const double share = 0.5;        /* of what was commanded, that may be missed */
-static const int looks = 2;             /* in a row, before it is believed */
+/* Tolerances that must be commanded in a window, of a joint that did follow: when it is slow it may
+ * lean on something, and when it is pushed meanwhile that says nothing of its motor. */
+static const double judged = 1.5;
+static const double proof = 1; /* s of motion after which a joint has shown that it follows */
+static const int looks = 2;    /* in a row, for one that has not */
 
 void following_init(struct following *following, const struct config *config)
 {
@@ -16,7 +20,8 @@ void following_init(struct following *following, const struct config *config)
 
 void following_forget(struct following *following)
 {
-    following_init(following, following->config);
+    following->kept = 0;
+    following->doubts = false;
 }
 
 /* Index of the entry `age` ticks ago. */
@@ -68,17 +73,50 @@ static double nearest(const struct motion *motion)
     return fmin(fmax(motion->measured, motion->least), motion->greatest);
 }
 
+static double greatest_of(const struct motion *motion)
+{
+    return fmax(fabs(motion->least), fabs(motion->greatest));
+}
+
 static enum following_fault judge(const struct following *following, const struct motion *motion)
 {
-    double tolerance = following->config->safety_following;
-    double most = fmax(fabs(motion->least), fabs(motion->greatest));
-    double missed = motion->measured - nearest(motion);
+    double missed = motion->measured - nearest(motion), most = greatest_of(motion);
 
-    if (most < tolerance || fabs(missed) <= tolerance + share * most)
+    if (fabs(missed) <= following->config->safety_following + share * most)
         return FOLLOWING_WELL;
     if (fabs(motion->measured) <= 0.25 * most)
         return FOLLOWING_STILL;
     return motion->measured * nearest(motion) < 0 ? FOLLOWING_REVERSED : FOLLOWING_ASTRAY;
+}
+
+static bool has_followed(const struct following *following, int joint)
+{
+    return following->well[joint] >= proof;
+}
+
+/* What is well counts twice. */
+static void count(struct following *following, int joint, const struct motion *motion,
+                  double period)
+{
+    double *wrong = &following->wrong[joint], *well = &following->well[joint];
+    enum following_fault fault = judge(following, motion);
+    double patience =
+        has_followed(following, joint) ? following->config->safety_following_time : looks * period;
+
+    if (fault == FOLLOWING_WELL) {
+        if (motion->measured * nearest(motion) > 0 &&
+            fabs(motion->measured) >= share * greatest_of(motion))
+            *well += period; /* a motor that is dead misses little while little is commanded */
+        *wrong = fmax(*wrong - 2 * period, 0);
+        return;
+    }
+    *wrong += period;
+    following->doubts = true;
+    if (*wrong < patience - 1e-9 || following->joint)
+        return;
+    following->joint = joint + 1;
+    following->fault = fault;
+    following->missed = motion->measured - nearest(motion);
 }
 
 static void look_over(struct following *following)
@@ -88,41 +126,24 @@ static void look_over(struct following *following)
     int span = (int)ceil(window / period - 1e-9);
     int late = (int)ceil(config->safety_latency / period - 1e-9) + 2;
 
+    following->doubts = false;
     if (span + late >= following->kept)
         return;
     for (int i = 0; i < config_joints(config); i++) {
         struct motion motion = motion_over(following, i, span, late);
-        enum following_fault fault = judge(following, &motion);
-        if (fault == FOLLOWING_WELL)
-            continue;
-        following->wrong[i] += 2; /* one is taken back at each look */
-        if (following->wrong[i] <= looks || following->joint)
-            continue;
-        following->joint = i + 1;
-        following->fault = fault;
-        following->missed = motion.measured - nearest(&motion);
+        double least = config->safety_following * (has_followed(following, i) ? judged : 1);
+        if (greatest_of(&motion) >= least)
+            count(following, i, &motion, period);
     }
 }
 
 void following_look(struct following *following, const double *velocity, const double *q)
 {
-    int n = config_joints(following->config);
-
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < config_joints(following->config); i++)
         following->total[i] += velocity[i] * following->config->period;
     if (++following->ticks < stride(following->config))
         return;
     following->ticks = 0;
     push(following, q);
-    for (int i = 0; i < n; i++)
-        following->wrong[i] -= following->wrong[i] > 0;
     look_over(following);
-}
-
-bool following_doubts(const struct following *following)
-{
-    for (int i = 0; i < MAX_JOINTS; i++)
-        if (following->wrong[i] > 0)
-            return true;
-    return false;
 }

@@ -3,7 +3,11 @@
  *
  * Motion may come late by anything up to safety.latency and two periods, so the measured motion is
  * held against the whole span of what was commanded with each of these delays. A joint follows when
- * it is within safety.following of that span, and within half of what was commanded more. */
+ * it is within safety.following of that span, and within half of what was commanded more.
+ *
+ * A joint that has not followed for a second of motion since the start is at fault at once: so the
+ * errors of a first day are found. One that has may be held by something, since arms do touch the
+ * body that they are on; it is at fault after safety.following_time. */
 #ifndef REACH_DAEMON_CONTROL_SENSES_FOLLOWING_H
 #define REACH_DAEMON_CONTROL_SENSES_FOLLOWING_H
 
@@ -30,7 +34,9 @@ struct following {
     int kept;                                     /* entries that count */
     double commanded[FOLLOWING_KEPT][MAX_JOINTS]; /* the sum then, rad */
     double measured[FOLLOWING_KEPT][MAX_JOINTS];  /* rad */
-    int wrong[MAX_JOINTS];                        /* looks in a row that found it wrong */
+    double wrong[MAX_JOINTS];                     /* for how long it was moved wrongly, s */
+    double well[MAX_JOINTS];                      /* for how long it followed, s */
+    bool doubts;                                  /* a joint was found wrong at the newest look */
     int joint;                                    /* that does not follow, from 1; 0 = all do */
     enum following_fault fault;
     double missed; /* measured less commanded motion of that joint, rad */
@@ -38,14 +44,10 @@ struct following {
 
 void following_init(struct following *following, const struct config *config);
 
-/* What was measured before says nothing any more: the robot rested, was begun anew, a fault was
- * reset, states were lost. */
+/* The motion before says nothing any more: the robot rested, was begun anew, states were lost. */
 void following_forget(struct following *following);
 
 /* A tick: the velocities (rad/s) that were in force since the last one, and the joints (rad). */
 void following_look(struct following *following, const double *velocity, const double *q);
-
-/* Whether a joint is about to be found wrong. */
-bool following_doubts(const struct following *following);
 
 #endif

@@ -163,6 +163,30 @@ START_TEST(a_wrong_scale_is_noticed)
 }
 END_TEST
 
+/* A joint that did follow may be held by something, but not for ever. */
+START_TEST(what_breaks_later_is_noticed)
+{
+    const enum trouble breaks[] = {ENCODER_STUCK, MOTOR_DEAD};
+
+    for (int k = 0; k < 2; k++) {
+        double after;
+        begin("kobian.yaml", NONE, 1, 1);
+        babble(3);
+        for (int i = 0; i < 60 * 50; i++)
+            step();
+        ck_assert_int_eq(status->fault, REACH_STATUS_T_FAULT_NONE);
+        turned_at = world.robot.q[joint];
+        trouble = breaks[k];
+        after = noticed_after();
+        ck_assert_double_gt(after, 5);
+        ck_assert_double_le(after, 12);
+        ck_assert_int_eq(status->fault, REACH_STATUS_T_FAULT_STILL);
+        ck_assert_int_eq(status->fault_joint, 2);
+        world_end();
+    }
+}
+END_TEST
+
 START_TEST(after_a_reset_it_is_noticed_again)
 {
     begin("kobian.yaml", MOTOR_DEAD, 1, 1);
@@ -198,9 +222,10 @@ END_TEST
 int main(void)
 {
     const TTest *const tests[] = {
-        a_stuck_encoder_is_noticed,        a_dead_motor_is_noticed,
-        a_wrong_sign_is_noticed,           a_wrong_scale_is_noticed,
-        after_a_reset_it_is_noticed_again, an_honest_robot_raises_no_alarm,
+        a_stuck_encoder_is_noticed,      a_dead_motor_is_noticed,
+        a_wrong_sign_is_noticed,         a_wrong_scale_is_noticed,
+        what_breaks_later_is_noticed,    after_a_reset_it_is_noticed_again,
+        an_honest_robot_raises_no_alarm,
     };
 
     randoms = fixture_random("test_following");
