@@ -3,6 +3,7 @@
 #include <assert.h>
 #include <dirent.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 static_assert((int)MODEL_NOTHING == (int)MODEL_STORE_NOTHING &&
@@ -103,13 +104,15 @@ static struct model_report store_report(const void *context)
 {
     const struct model_store_report report = model_store_report(context);
 
-    return (struct model_report){
+    struct model_report told = {
         .stored = report.stored,
         .storing = report.storing,
         .waits = report.waits,
         .search = search_of(report.search),
         .searches = report.searches,
     };
+    memcpy(told.not_rigid, report.not_rigid, sizeof told.not_rigid);
+    return told;
 }
 
 static const struct model_port_ops ops = {

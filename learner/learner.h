@@ -243,8 +243,9 @@ struct learner_body_change {
     int cause;    /* of the newest: an input, counted from 0; n_inputs: the view; -1: none yet */
     double by[3]; /* by how much since another cause was: of a joint rad (by[0]); of the view m, or
                      of eyes the optical axis' two tilts (rad) and px */
-    double slip;  /* how far the tip that slips most is from where it was; m, or the eyes' own
-                     unit; 0 when none does */
+    bool unsettled; /* the newest samples may be of a change: a search had better wait for some */
+    double slip;    /* how far the tip that slips most is from where it was; m, or the eyes' own
+                       unit; 0 when none does */
 };
 struct learner_body_change learner_get_body_change(const struct learner *learner);
 

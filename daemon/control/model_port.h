@@ -3,6 +3,7 @@
 #ifndef REACH_DAEMON_CONTROL_MODEL_PORT_H
 #define REACH_DAEMON_CONTROL_MODEL_PORT_H
 
+#include "daemon/config/space.h"
 #include "learner/learner.h"
 
 #include <stdbool.h>
@@ -39,7 +40,8 @@ struct model_report {
     bool storing;   /* what is learned is kept */
     int64_t waits;  /* times that learning waited for room */
     enum model_search search;
-    int64_t searches; /* since the start */
+    int64_t searches;                   /* since the start */
+    double not_rigid[SPACE_DIMENSIONS]; /* as the newest search found it: learner_not_rigid() */
 };
 
 struct model_port_ops {

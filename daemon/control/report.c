@@ -90,6 +90,17 @@ static int64_t samples_of(const struct learner_statistics *counts)
     return (int64_t)(counts->samples + counts->outliers + counts->full + counts->refused);
 }
 
+static void report_change(const struct learner *learner, reach_status_t *status)
+{
+    const struct learner_body_change change = learner_get_body_change(learner);
+    int n_inputs = learner_body(learner)->chain.n;
+
+    status->body_changes = (int64_t)change.changes;
+    status->body_changed = change.cause >= n_inputs ? -1 : change.cause + 1;
+    memcpy(status->body_changed_by, change.by, sizeof status->body_changed_by);
+    status->body_slip = change.slip;
+}
+
 static void report_body(const struct tick *tick, const struct model_report *model,
                         reach_status_t *status)
 {
@@ -102,6 +113,8 @@ static void report_body(const struct tick *tick, const struct model_report *mode
     status->body_samples = body->samples;
     status->body_error = body->error;
     status->body_doubt = body->doubt;
+    memcpy(status->body_not_rigid, model->not_rigid, sizeof status->body_not_rigid);
+    report_change(tick->learner, status);
 }
 
 static void report_model(const struct tick *tick, reach_status_t *status)

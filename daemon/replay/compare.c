@@ -15,6 +15,7 @@ static void take_measured_status(const reach_status_t *recorded, reach_status_t 
     replayed->refused_max = recorded->refused_max;
     replayed->body = recorded->body;
     replayed->body_searches = recorded->body_searches;
+    memcpy(replayed->body_not_rigid, recorded->body_not_rigid, sizeof replayed->body_not_rigid);
     replayed->compute_us = recorded->compute_us;
     replayed->compute_mean_us = recorded->compute_mean_us;
     replayed->compute_p999_us = recorded->compute_p999_us;

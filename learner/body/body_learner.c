@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "learner/base/hash.h"
+#include "learner/body/follow.h"
 #include "learner/body/order.h"
 
 struct learner_config body_meanwhile_config(const struct learner_config *config)
@@ -257,9 +258,10 @@ static struct learner_body_change change_of(const void *self)
 {
     const struct body_learner *learner = self;
     const struct body_news *news = &learner->contexts->news;
-    struct learner_body_change change = {(uint64_t)news->changes, news->cause, {0}, 0.0};
+    struct learner_body_change change = {.changes = (uint64_t)news->changes, .cause = news->cause};
 
     memcpy(change.by, news->by, sizeof change.by);
+    change.unsettled = follow_unsettled(learner->contexts);
     if (change.cause >= 0 && change.cause < learner->config.n_inputs)
         change.cause = learner->config.body.order[change.cause];
     for (int j = 0; j < learner->contexts->n; j++)

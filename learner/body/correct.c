@@ -5,7 +5,7 @@
 #include "learner/body/population.h"
 #include "learner/body/vec3.h"
 
-const double follow_fewest_own = 50.0;
+const double follow_fewest_own = 200.0;
 
 /* What is left of y with the remembered tip. */
 void follow_left_of(const struct contexts *contexts, const struct anchor *anchor, const double *y,

@@ -10,13 +10,14 @@ static const double first_remembered = 200.0; /* samples of a context */
 static const double memory_own = 500.0;       /* samples that weigh on a slow change */
 static const double memory_astray = 50.0;     /* and on a sudden one */
 static const double fewest_astray = 15.0;
+static const double decided = 60.0; /* samples, after which a change was seen or is none */
 /* A change is told when it is that much likelier than every other story, log, */
 static const double convincing = 25.0;
 static const double quiet = 10.0;        /* under this nothing speaks for any */
 static const double least_effect = 0.7;  /* of the noise: it is seen, */
 static const double astray_effect = 2.0; /* the same where samples are not understood, */
-static const double curved = 0.1;        /* of the effect, which is linear for small ones alone */
-static const double most_left = 1.5;     /* and when it leaves little more than that */
+static const double curved = 0.05;       /* of the effect, which is linear for small ones alone */
+static const double most_left = 1.2;     /* and when it leaves little more than that */
 static const double most_doubt = 1.0;    /* of the body, over the noise */
 static const double slipped = 1.0;       /* how far a tip may slip, and a new tool's */
 static const double anywhere = 15.0;     /* be elsewhere, over change_unit() */
@@ -44,9 +45,17 @@ static void remember(struct contexts *contexts, struct context *context)
     change_clear(&anchor->astray, contexts->design.n_joints);
 }
 
+static bool any_remembered(const struct contexts *contexts)
+{
+    for (int j = 0; j < contexts->n; j++)
+        if (contexts->context[j].anchor.known)
+            return true;
+    return false;
+}
+
 static void count_streak(struct contexts *contexts, bool understood)
 {
-    if (!understood)
+    if (!understood && any_remembered(contexts))
         contexts->streak_left = memory_astray;
     if (contexts->streak_left <= 0.0)
         return;
@@ -238,6 +247,11 @@ bool follow_look(struct contexts *contexts)
     }
     follow_correct(contexts, winner, &best);
     return true;
+}
+
+bool follow_unsettled(const struct contexts *contexts)
+{
+    return contexts->streak_left > 0.0 && contexts->streak < decided;
 }
 
 /* Where the tip is in the frame of one body is elsewhere in that of another: the same samples,

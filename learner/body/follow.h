@@ -19,6 +19,9 @@ void follow_sample(struct contexts *contexts, int winner, const double *x, const
  * contexts of samples that were not understood before are gone. */
 bool follow_look(struct contexts *contexts);
 
+/* Samples of late were not understood, and it is not yet decided of what they are. */
+bool follow_unsettled(const struct contexts *contexts);
+
 /* Before another body comes: whether a context is to be learned anew on the old one first, since
  * its tip is on its way and what it remembers must come along; and that it was. */
 bool follow_leaves(struct context *context);

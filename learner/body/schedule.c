@@ -47,6 +47,8 @@ static uint64_t seen(const struct learner *learner)
 
 bool body_schedule_due(const struct body_schedule *schedule, const struct learner *learner)
 {
+    if (learner_get_body_change(learner).unsettled)
+        return false;
     return kept(learner) >= schedule->next_kept || seen(learner) >= schedule->next_learned;
 }
 

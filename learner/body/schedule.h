@@ -17,7 +17,8 @@ struct body_schedule {
 /* Of a learner that knows nothing yet. */
 struct body_schedule body_schedule_begin(void);
 
-/* Whether a search is due with the samples that the learner has now. */
+/* Whether a search is due with the samples that the learner has now. Not while it may be that the
+ * body has changed: samples of before and after make no body. */
 bool body_schedule_due(const struct body_schedule *schedule, const struct learner *learner);
 
 /* A search has those samples: the next is due when there are enough more. Also for a learner that

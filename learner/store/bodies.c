@@ -11,7 +11,8 @@ static const int64_t first_patience_us = 3000000; /* until somebody says that th
 static const int64_t next_patience_us = 300000;   /* the same, once nobody did */
 static const int64_t again_us = 500000;           /* a request may have been lost, */
 static const int64_t answer_us = 5000000;         /* or, once it came, its answer */
-static const int64_t search_us = 60000000;        /* for the search itself */
+static const double degrees = 57.29577951308232;
+static const int64_t search_us = 60000000; /* for the search itself */
 
 bool model_store_seeks(const struct model_store_settings *settings)
 {
@@ -178,6 +179,32 @@ static void take_report(struct model_store *store)
     }
 }
 
+/* What the shadow has come to see of its body. */
+static void look_at_body(struct model_store *store)
+{
+    double share[LEARNER_MAX_OUTPUTS] = {0};
+
+    learner_not_rigid(store->shadow, share);
+    for (int i = 0; i < BODY_OUTPUTS; i++)
+        atomic_store_explicit(&store->search.not_rigid[i], share[i], memory_order_relaxed);
+}
+
+static void say_changed(struct model_store *store)
+{
+    const struct learner_body_change change = learner_get_body_change(store->shadow);
+    uint64_t known = store->search.changes;
+
+    store->search.changes = change.changes;
+    if (change.changes <= known)
+        return;
+    if (change.cause < store->settings.learner.n_inputs)
+        log_info("the body has changed: the zero of joint %d by %.2f deg; followed",
+                 change.cause + 1, change.by[0] * degrees);
+    else
+        log_info("the view has changed: by %.3g %.3g %.3g; followed", change.by[0], change.by[1],
+                 change.by[2]);
+}
+
 static void take_answer(struct model_store *store)
 {
     struct search *search = &store->search;
@@ -188,6 +215,7 @@ static void take_answer(struct model_store *store)
     search->absent = false;
     if (search->answer.kind == BODY_ANSWER_REPORT) {
         take_report(store);
+        look_at_body(store);
     } else if (search->answer.kind == BODY_ANSWER_REFUSED) {
         log_error("reach-finder refuses to search: %s", search->answer.report.why);
         end_search(store, MODEL_STORE_NOT_YET);
@@ -221,6 +249,7 @@ void model_store_follow_search(struct model_store *store, int64_t now)
     if (!model_store_seeks(&store->settings))
         return;
     model_store_tell_if_asked(store);
+    say_changed(store);
     if (stage_of(store) == SEARCH_FOUND)
         return;
     while (stage_of(store) != SEARCH_FOUND && finder->take(finder->user, &search->answer))

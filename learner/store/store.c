@@ -290,11 +290,15 @@ struct model_store_report model_store_report(const struct model_store *store)
     uint64_t stored = atomic_load_explicit(&store->stored, memory_order_acquire);
     uint64_t of_this = stored - model_store_pack(store->epoch, 0);
 
-    return (struct model_store_report){
+    struct model_store_report report = {
         .stored = of_this <= store->number ? (int64_t)of_this : 0,
         .storing = atomic_load_explicit(&store->storing, memory_order_relaxed),
         .waits = (int64_t)mailbox_refused(store->noted),
         .search = search_of(store),
         .searches = store->search.seq,
     };
+    for (int i = 0; i < BODY_OUTPUTS; i++)
+        report.not_rigid[i] =
+            atomic_load_explicit(&store->search.not_rigid[i], memory_order_relaxed);
+    return report;
 }

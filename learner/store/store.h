@@ -114,6 +114,7 @@ struct model_store_report {
         MODEL_STORE_NO_FINDER,
     } search;
     int64_t searches;
+    double not_rigid[BODY_OUTPUTS]; /* at the newest search's end: learner_not_rigid() */
 };
 struct model_store_report model_store_report(const struct model_store *store);
 

@@ -41,6 +41,8 @@ struct search {
     uint64_t at; /* sample with which it became due, or at which the body is to be given */
     bool forget; /* the loop's until BODY_AWAITED: what is to be given is none */
     _Atomic bool tell;
+    _Atomic double not_rigid[BODY_OUTPUTS];
+    uint64_t changes; /* of the body in use, that the log knows of */
 
     /* Housekeeping's. */
     int64_t sent_at;  /* monotonic us: first */

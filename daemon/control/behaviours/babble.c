@@ -71,7 +71,7 @@ static void babble_start(struct behaviour *behaviour, const reach_request_t *req
     memcpy(babble->min, senses->config->babble_min.value, sizeof babble->min);
     memcpy(babble->max, senses->config->babble_max.value, sizeof babble->max);
     babble_begin(babble, request->seed, &behaviour->progress, senses, wants);
-    babbling->tours = tour_shows_body(senses->config);
+    babbling->tours = request->learn && tour_shows_body(senses->config);
     tour_init(&babbling->tour, senses, babble->min, babble->max);
 }
 

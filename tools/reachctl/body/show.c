@@ -41,7 +41,8 @@ void body_show(const struct body *body, FILE *stream)
     fprintf(stream,
             "%d joints, found from %d samples; error %.2f of the noise on samples kept apart\n",
             chain->n, body->samples, body->error);
-    fprintf(stream, "joint  kind    axis at the middle          sure to   to the next   range seen\n");
+    fprintf(stream,
+            "joint  kind    axis at the middle          sure to   to the next   range seen\n");
     for (int i = 0; i < chain->n; i++) {
         double sure = doubt_of_three(body, 3 * i) / degree;
         double length = i + 1 < chain->n ? vec3_length(chain->offset[i + 1]) : 0;

@@ -52,6 +52,34 @@ const char *show_error_unit(const reach_status_t *status)
     return status->space == REACH_STATUS_T_CARTESIAN ? "mm" : "px";
 }
 
+static const double degrees = 57.29577951308232;
+
+/* What the body in use has come to since it was found. */
+static void show_change(const reach_status_t *status, FILE *out)
+{
+    const double *by = status->body_changed_by, *rest = status->body_not_rigid;
+    bool cartesian = status->space == REACH_STATUS_T_CARTESIAN;
+
+    if (status->body != REACH_STATUS_T_BODY_FOUND)
+        return;
+    if (cartesian)
+        fprintf(out, "           no rigid chain: %.2f %.2f %.2f mm of its motion", 1e3 * rest[0],
+                1e3 * rest[1], 1e3 * rest[2]);
+    else
+        fprintf(out, "           no rigid chain: %.3f deg %.3f deg %.2f px of its motion",
+                degrees * rest[0], degrees * rest[1], rest[2]);
+    if (status->body_slip > 0)
+        fprintf(out, "; a tip has slipped by %.3g%s",
+                cartesian ? 1e3 * status->body_slip : status->body_slip, cartesian ? " mm" : "");
+    fputc('\n', out);
+    if (status->body_changed > 0)
+        fprintf(out, "           joint %d's zero has changed by %.2f deg, change %lld\n",
+                status->body_changed, degrees * by[0], (long long)status->body_changes);
+    else if (status->body_changed < 0)
+        fprintf(out, "           the view has changed by %.3g %.3g %.3g, change %lld\n", by[0],
+                by[1], by[2], (long long)status->body_changes);
+}
+
 void show_text(const reach_status_t *status, FILE *out)
 {
     char body[128], fault[128], refused[512];
@@ -70,6 +98,7 @@ void show_text(const reach_status_t *status, FILE *out)
             (long long)status->samples, status->experts, status->solutions, status->solution,
             status->context, status->contexts);
     fprintf(out, "body       %s; %lld searches\n", body, (long long)status->body_searches);
+    show_change(status, out);
     fprintf(out, "disk       %lld of the model's %lld samples are stored%s\n",
             (long long)status->samples_stored, (long long)status->model_samples,
             status->storing ? "" : "; nothing is being stored");
@@ -125,6 +154,9 @@ static const struct field {
     FIELD(body_error, FIELD_DOUBLE),
     FIELD(body_doubt, FIELD_DOUBLE),
     FIELD(body_searches, FIELD_INT64),
+    FIELD(body_changes, FIELD_INT64),
+    FIELD(body_changed, FIELD_INT32),
+    FIELD(body_slip, FIELD_DOUBLE),
     FIELD(compute_us, FIELD_DOUBLE),
     FIELD(compute_mean_us, FIELD_DOUBLE),
     FIELD(compute_p999_us, FIELD_DOUBLE),
@@ -199,6 +231,8 @@ void show_json(const reach_status_t *status, FILE *out)
         fprintf(out, ", \"%s\": ", fields[i].name);
         print_field(status, &fields[i], out);
     }
+    print_list("body_changed_by", status->body_changed_by, 3, out);
+    print_list("body_not_rigid", status->body_not_rigid, 3, out);
     print_list("x_predicted", status->x_predicted, status->n_outputs, out);
     print_list("x_estimated", status->x_estimated, status->n_outputs, out);
     fputs("}\n", out);
