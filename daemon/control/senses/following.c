@@ -104,10 +104,12 @@ static void count(struct following *following, int joint, const struct motion *m
         has_followed(following, joint) ? following->config->safety_following_time : looks * period;
 
     if (fault == FOLLOWING_WELL) {
+        /* A motor that is dead misses little while little is commanded: that shows nothing. */
         if (motion->measured * nearest(motion) > 0 &&
-            fabs(motion->measured) >= share * greatest_of(motion))
-            *well += period; /* a motor that is dead misses little while little is commanded */
-        *wrong = fmax(*wrong - 2 * period, 0);
+            fabs(motion->measured) >= share * greatest_of(motion)) {
+            *well += period;
+            *wrong = fmax(*wrong - 2 * period, 0);
+        }
         return;
     }
     *wrong += period;
