@@ -220,9 +220,9 @@ static void remember_again(struct contexts *contexts, double gain)
     for (int j = 0; j < contexts->n; j++) {
         struct context *context = &contexts->context[j];
         const struct anchor *anchor = &context->anchor;
-        if (!anchor->known && contexts_confirmed(context) && context->support >= first_remembered)
-            remember(contexts, context);
-        else if (anchor->known && gain < quiet && context->support >= anchor->next)
+        bool first = contexts_confirmed(context) && context->support >= first_remembered;
+        bool again = gain < quiet && context->support >= anchor->next;
+        if (anchor->known ? again : first)
             remember(contexts, context);
     }
 }

@@ -71,7 +71,6 @@ bool body_try(struct body_learner *learner, const double *z, const double *x)
     struct learner_prediction *scratch = &learner->scratch;
     double polynomial = INFINITY;
     double body = INFINITY;
-    double joints[LEARNER_MAX_INPUTS];
 
     learner->doubtful = learner->doubtful || explains_badly(learner);
     if (!learner->doubtful)
@@ -85,6 +84,7 @@ bool body_try(struct body_learner *learner, const double *z, const double *x)
         body = square_of(learner, scratch, x);
     }
     if (!withheld) {
+        double joints[LEARNER_MAX_INPUTS];
         imle_learn(learner->meanwhile, z, x);
         order_to_chain(&learner->config, z, joints);
         kept_add(&learner->waiting, joints, x);

@@ -27,6 +27,8 @@ SAID = [
     ("LEARNER_REPLY", types.learner_reply_t, 5),
     ("LEARNER_REQUEST", types.learner_request_t, 5),
     ("MARKER", types.marker_t, 5),
+    ("REACH_BODY", types.body_t, 5),
+    ("REACH_BODY_REQUEST", types.body_request_t, 5),
     ("REACH_CONFIG", types.config_t, 5),
     ("REACH_HELLO", types.hello_t, 5),
     ("REACH_REQUEST", types.request_t, 10),

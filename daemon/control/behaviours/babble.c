@@ -12,7 +12,8 @@
 static const int most_draws = 20;  /* for a posture that promises something */
 static const double daring = 0.05; /* chance of a posture that promises nothing */
 
-/* Without a body it begins with each joint alone (tour.h). */
+/* Without a body it begins with each joint alone (tour.h), where so many samples are wanted that
+ * half of them are left for random postures. */
 struct babbling {
     struct babble babble;
     struct tour tour;
@@ -71,7 +72,8 @@ static void babble_start(struct behaviour *behaviour, const reach_request_t *req
     memcpy(babble->min, senses->config->babble_min.value, sizeof babble->min);
     memcpy(babble->max, senses->config->babble_max.value, sizeof babble->max);
     babble_begin(babble, request->seed, &behaviour->progress, senses, wants);
-    babbling->tours = request->learn && tour_shows_body(senses->config);
+    babbling->tours = request->learn && tour_shows_body(senses->config) &&
+                      request->count >= 2 * tour_ticks(senses->config);
     tour_init(&babbling->tour, senses, babble->min, babble->max);
 }
 

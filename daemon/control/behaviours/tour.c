@@ -60,6 +60,13 @@ static void begin(struct tour *tour, const struct senses *senses)
     aim(tour, senses);
 }
 
+int tour_ticks(const struct config *config)
+{
+    double there_and_back = 2 * turned / config->motion_arm_velocity;
+
+    return (int)(config_arm_joints(config) * there_and_back / config->period);
+}
+
 bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wants *wants)
 {
     int n = config_arm_joints(senses->config);

@@ -30,6 +30,9 @@ bool tour_shows_body(const struct config *config);
 void tour_init(struct tour *tour, const struct senses *senses, const double *low,
                const double *high);
 
+/* About how many ticks it takes to turn each joint alone. */
+int tour_ticks(const struct config *config);
+
 /* One tick of turning each joint alone, there and back. Returns false when all were turned. */
 bool tour_turn_joints(struct tour *tour, const struct senses *senses, struct wants *wants);
 
