@@ -7,9 +7,15 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const char *const faults[] = {"none",           "late again and again",
-                                     "emergency stop", "the loop stood still",
-                                     "a joint jumped", "two senders of ROBOT_STATE"};
+static const char *const faults[] = {"none",
+                                     "late again and again",
+                                     "emergency stop",
+                                     "the loop stood still",
+                                     "a joint jumped",
+                                     "two senders of ROBOT_STATE",
+                                     "a joint does not move",
+                                     "a joint moves the wrong way",
+                                     "a joint moves otherwise than told"};
 static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
 static const char *const behaviours[] = {"none", "babble", "coordinate", "reach", "explore"};
 static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
@@ -21,7 +27,7 @@ static const char *const bodies[] = {"none yet", "searching", "found", "not a ch
                                      "no reach-finder on the bus"};
 
 static_assert(COUNT(bodies) == REACH_STATUS_T_BODY_NO_FINDER + 1, "a name for each body");
-static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_SENDERS + 1, "a name for each fault");
+static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_ASTRAY + 1, "a name for each fault");
 static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
 static_assert(COUNT(behaviours) == REACH_STATUS_T_EXPLORE + 1, "a name for each behaviour");
 static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");

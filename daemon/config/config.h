@@ -27,6 +27,8 @@ struct config {
     double safety_state_hold, safety_state_suspend; /* ages of the robot state, s */
     double safety_reaction, safety_latency; /* that braking before a limit reckons with, s */
     double safety_loop_stall;               /* standstill of the loop, s */
+    double safety_following_time;           /* in which it may miss that, s */
+    double safety_following;                /* motion that a joint may miss, rad */
     double safety_jump;        /* of a joint between two states, beyond what it can move, rad */
     int safety_overruns_fault; /* late ticks in a row that are a fault */
 

@@ -36,12 +36,14 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
     struct estimate *estimate = &tick->estimate;
     const struct learner_prediction *prediction = predict_at(tick, pair->q);
     reach_sample_t *sample = &outputs->sample;
+    /* Nothing of joints that may not be where they seem to be. */
+    bool learns = tick->behaviour.learn && !tick->following.doubts;
 
     memset(sample, 0, sizeof *sample);
     sample->utime = pair->utime;
     sample->seq = ++tick->sample_seq;
     sample->request_seq = tick->behaviour.request_seq;
-    sample->learned = tick->behaviour.learn;
+    sample->learned = learns;
     sample->n_inputs = estimate->n_inputs;
     sample->n_outputs = estimate->n_outputs;
     memcpy(sample->q, pair->q, sizeof sample->q);
@@ -55,7 +57,7 @@ void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outp
                sizeof sample->x_predicted);
     outputs->has_sample = true;
 
-    if (tick->behaviour.learn)
+    if (learns)
         sample_queue_add(&tick->queue, pair->q, estimate->n_inputs, pair->x, estimate->n_outputs);
     tick_anchor(tick, pair);
 }

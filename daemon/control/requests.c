@@ -85,6 +85,7 @@ static int8_t serve(struct tick *tick, const reach_request_t *request)
     case REACH_REQUEST_T_RESET_FAULT:
         tick->reset_requested = true;
         plausible_forget(&tick->plausible);
+        following_init(&tick->following, tick->config);
         return REACH_STATUS_T_ACCEPTED;
     case REACH_REQUEST_T_EMERGENCY:
         tick->emergency_requested = true;

@@ -30,6 +30,7 @@ static const struct {
     {ANY_STATE, CONDITION_OVERRUNNING, 0, SUPERVISOR_FAULT},
     {ANY_STATE, CONDITION_JUMPS, 0, SUPERVISOR_FAULT},
     {ANY_STATE, CONDITION_SENDERS, 0, SUPERVISOR_FAULT},
+    {ANY_STATE, CONDITION_ASTRAY, 0, SUPERVISOR_FAULT},
     {FROM(SUPERVISOR_WAITING), 0, CONDITION_STATE_KNOWN, SUPERVISOR_WAITING},
     {FROM(SUPERVISOR_WAITING), 0, CONDITION_STATE_FRESH, SUPERVISOR_WAITING},
     {FROM(SUPERVISOR_WAITING), 0, CONDITION_STATE_ALIVE, SUPERVISOR_WAITING},
@@ -62,7 +63,8 @@ int8_t supervisor_fault(enum supervisor_state state, uint32_t conditions, int8_t
     if (fault != REACH_STATUS_T_FAULT_NONE)
         return fault;
     /* Two senders make joints jump. */
-    return conditions & CONDITION_SENDERS ? REACH_STATUS_T_FAULT_SENDERS
-           : conditions & CONDITION_JUMPS ? REACH_STATUS_T_FAULT_JUMP
-                                          : REACH_STATUS_T_FAULT_OVERRUNS;
+    return conditions & CONDITION_SENDERS  ? REACH_STATUS_T_FAULT_SENDERS
+           : conditions & CONDITION_JUMPS  ? REACH_STATUS_T_FAULT_JUMP
+           : conditions & CONDITION_ASTRAY ? REACH_STATUS_T_FAULT_ASTRAY
+                                           : REACH_STATUS_T_FAULT_OVERRUNS;
 }

@@ -27,8 +27,9 @@ enum supervisor_condition {
     CONDITION_STALLED = 1 << 7,         /* the loop stood still, the watchdog had to brake */
     CONDITION_JUMPS = 1 << 8,           /* a joint is read where it cannot be */
     CONDITION_SENDERS = 1 << 9,         /* two programs send robot states */
+    CONDITION_ASTRAY = 1 << 10,         /* a joint does not follow its commands */
 };
-#define SUPERVISOR_N_CONDITIONS 10
+#define SUPERVISOR_N_CONDITIONS 11
 
 enum supervisor_state supervisor_next(enum supervisor_state state, uint32_t conditions);
 

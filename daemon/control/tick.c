@@ -2,13 +2,11 @@
 
 #include "daemon/control/behaviours/behaviour.h"
 #include "daemon/control/behaviours/gaze.h"
-#include "daemon/control/inputs.h"
 #include "daemon/control/kinematics/estimate.h"
 #include "daemon/control/limits/motion.h"
 #include "daemon/control/limits/safety.h"
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/joint_history.h"
-#include "daemon/control/senses/senders.h"
 #include "daemon/control/senses/sight.h"
 #include "daemon/control/supervisor.h"
 #include "daemon/control/tick_private.h"
@@ -17,9 +15,11 @@
 #include <math.h>
 #include <string.h>
 
-static const int64_t overtaken_us =
-    SENDERS_OVERTAKEN;                       /* the most that messages overtake each other */
-static const int64_t forgotten_us = 1000000; /* less than the joints are remembered */
+static const int8_t fault_of_following[] = {
+    [FOLLOWING_STILL] = REACH_STATUS_T_FAULT_STILL,
+    [FOLLOWING_REVERSED] = REACH_STATUS_T_FAULT_REVERSED,
+    [FOLLOWING_ASTRAY] = REACH_STATUS_T_FAULT_ASTRAY,
+};
 
 size_t tick_memory(const struct config *config)
 {
@@ -48,6 +48,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     if (!tick->learner)
         return NULL;
     plausible_init(&tick->plausible, config);
+    following_init(&tick->following, config);
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
     estimate_init(&tick->estimate, config_arm_joints(config), SPACE_DIMENSIONS,
@@ -82,105 +83,6 @@ bool tick_learn(struct tick *tick)
     model->ops->learned(model->context, tick->learner);
     tick->learned_now++;
     return true;
-}
-
-/* The robot's clock was set back: what was seen belongs to another time. */
-static void begin_anew(struct tick *tick)
-{
-    history_init(&tick->history, config_joints(tick->config));
-    sight_init(&tick->sight, tick->config);
-    tick->estimate.moved_from = false;
-}
-
-/* Overtaken on its way by a newer one, or seen before. A robot that starts anew begins with
- * number 1, one whose clock is set back goes back farther. */
-static bool is_late(const struct tick *tick, const reach_robot_state_t *state)
-{
-    return tick->state_known && state->seq > 1 && state->seq <= tick->state_seq &&
-           state->utime <= tick->state_utime && tick->state_utime - state->utime < overtaken_us;
-}
-
-/* Counts it, and keeps what was wrong. In lockstep its sender waits for an answer. */
-static bool refuse_state(struct tick *tick, const reach_robot_state_t *state, int reason,
-                         const struct state_fault *fault)
-{
-    struct refusals *refusals = &tick->refusals;
-
-    refusals_add(refusals, REACH_STATUS_T_CHANNEL_STATE, reason);
-    refusals->state_seq = state->seq;
-    refusals->state = *fault;
-    tick->unanswered = state->lockstep ? state->seq : 0;
-    return false;
-}
-
-static bool is_good(struct tick *tick, const struct tick_inputs *inputs)
-{
-    const reach_robot_state_t *state = &inputs->state;
-    struct state_fault fault;
-    bool good, jumps;
-
-    tick->unanswered = 0;
-    if (!inputs->has_state)
-        return false;
-    if (is_late(tick, state)) {
-        refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_STATE, REACH_STATUS_T_TIME);
-        return false;
-    }
-    good = inputs_state_ok(tick->config, state, &fault);
-    jumps = (good || fault.joint > 0) &&
-            plausible_strikes_jump(&tick->plausible, state, good, tick->time);
-    if (!good)
-        return refuse_state(tick, state, REACH_STATUS_T_VALUE, &fault);
-    if (jumps)
-        return refuse_state(tick, state, REACH_STATUS_T_JUMP, &tick->plausible.jump);
-    plausible_believe(&tick->plausible, state);
-    return true;
-}
-
-/* Takes the state in. A bad one is dropped, the last good one kept until it is stale. */
-static void take_state(struct tick *tick, const struct tick_inputs *inputs)
-{
-    const reach_robot_state_t *state = &inputs->state;
-
-    tick->state_seq_now = 0;
-    plausible_crossed(&tick->plausible, inputs->crossed, tick->time);
-    if (!is_good(tick, inputs)) {
-        tick->state_age = fmax(inputs->state_age, tick->state_age + tick->config->period);
-        return;
-    }
-    tick->state_age = inputs->state_age;
-    safety_measured(&tick->safety);
-    if (tick->state_known && state->utime <= tick->state_utime)
-        begin_anew(tick);
-    tick->state_utime = state->utime;
-    tick->state_seq_now = state->seq;
-    tick->state_seq = state->seq;
-    tick->state_known = true;
-    memcpy(tick->q, state->position, sizeof tick->q);
-    history_push(&tick->history, state->utime, state->position);
-}
-
-/* Of a time of which no joints are known, nor soon will be. One that is only newer than the newest
- * state, or was overtaken, is nothing to be told of. */
-static bool is_of_another_time(const struct tick *tick, const struct observation *observation)
-{
-    int64_t ahead = observation->utime - tick->state_utime;
-
-    return tick->state_known && (ahead > overtaken_us || ahead < -forgotten_us);
-}
-
-static void take_observations(struct tick *tick, const struct tick_inputs *inputs)
-{
-    tick->marker_seq_now = 0;
-    tick->sight.new_frame = false;
-    for (int i = 0; i < inputs->n_observations; i++) {
-        if (!inputs_observation_ok(tick->config, &inputs->observation[i]))
-            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_SENSE, REACH_STATUS_T_VALUE);
-        else if (sight_observe(&tick->sight, &inputs->observation[i], &tick->history))
-            tick->marker_seq_now = inputs->observation[i].seq;
-        else if (is_of_another_time(tick, &inputs->observation[i]))
-            refusals_add(&tick->refusals, REACH_STATUS_T_CHANNEL_SENSE, REACH_STATUS_T_TIME);
-    }
 }
 
 /* The output is measured, wherever the end-effector is: the estimate of eq. 14 starts from it. */
@@ -228,23 +130,37 @@ static uint32_t conditions(const struct tick *tick, const struct tick_inputs *in
         set |= CONDITION_RESET_REQUESTED;
     if (plausible_jumps(&tick->plausible, tick->time))
         set |= CONDITION_JUMPS;
+    if (tick->following.joint)
+        set |= CONDITION_ASTRAY;
     if (plausible_two_senders(&tick->plausible, tick->time))
         set |= CONDITION_SENDERS;
     return set;
 }
 
+/* Which joint a new fault is of. */
+static void name_fault(struct tick *tick, int8_t before)
+{
+    if (tick->fault == before)
+        return;
+    tick->fault_joint = 0;
+    if (tick->fault == REACH_STATUS_T_FAULT_JUMP) {
+        tick->fault_joint = tick->plausible.jump.joint;
+        tick->fault_value = tick->plausible.jumped;
+    } else if (tick->fault == REACH_STATUS_T_FAULT_ASTRAY) {
+        tick->fault = fault_of_following[tick->following.fault];
+        tick->fault_joint = tick->following.joint;
+        tick->fault_value = tick->following.missed;
+    }
+}
+
 static void supervise(struct tick *tick, const struct tick_inputs *inputs)
 {
     uint32_t set = conditions(tick, inputs);
+    int8_t before = tick->fault;
 
     tick->state = supervisor_next(tick->state, set);
-    tick->fault = supervisor_fault(tick->state, set, tick->fault);
-    if (tick->fault != REACH_STATUS_T_FAULT_JUMP)
-        tick->fault_joint = 0;
-    else if (tick->fault_joint == 0) {
-        tick->fault_joint = tick->plausible.jump.joint;
-        tick->fault_value = tick->plausible.jumped;
-    }
+    tick->fault = supervisor_fault(tick->state, set, before);
+    name_fault(tick, before);
     tick->reset_requested = false;
     tick->emergency_requested = false;
     /* A fault ends the work: what was wanted before it may no longer be. */
@@ -294,6 +210,7 @@ static void take_config(struct tick *tick, const struct config *config)
     tick->gaze.config = config;
     tick->safety.config = config;
     tick->plausible.config = config;
+    tick->following.config = config;
 }
 
 /* Counted on the loop's grid, which no clock that is set moves. */
@@ -335,8 +252,7 @@ void tick_decide(struct tick *tick, const struct tick_inputs *inputs, int64_t no
     trace_inputs(inputs, &outputs->trace);
     outputs->trace.fresh = !tick->touched;
     tick->touched = tick->touched || trace_inputs_matter(inputs);
-    take_state(tick, inputs);
-    take_observations(tick, inputs);
+    tick_take_inputs(tick, inputs);
     sense(tick);
     tick_take_requests(tick, inputs, &senses, &wants);
     supervise(tick, inputs);

@@ -10,6 +10,7 @@
 #include "daemon/control/limits/safety.h"
 #include "daemon/control/sample_queue.h"
 #include "daemon/control/senses/context.h"
+#include "daemon/control/senses/following.h"
 #include "daemon/control/senses/joint_history.h"
 #include "daemon/control/senses/plausible.h"
 #include "daemon/control/senses/refusals.h"
@@ -24,6 +25,7 @@ struct tick {
     const struct behaviour_ops *const *behaviours;
     struct sample_queue queue;
     struct plausible plausible;
+    struct following following;
     struct history history;
     struct sight sight;
     struct estimate estimate;
@@ -67,6 +69,9 @@ struct tick {
     bool has_target;
     double target[SPACE_DIMENSIONS];
 };
+
+/* Takes in the robot's state, if it is to be believed, and what was seen. */
+void tick_take_inputs(struct tick *tick, const struct tick_inputs *inputs);
 
 /* Looks at the requests that came, and at what became of a save or load. */
 void tick_take_requests(struct tick *tick, const struct tick_inputs *inputs,

@@ -198,8 +198,11 @@ START_TEST(what_is_honest_is_no_fault)
     for (int i = 0; i < 10; i++)
         tick_on(fake_robot_state(&world.robot));
     for (int round = 0; round < 20; round++) {
-        for (int i = 0; i < 25; i++)
-            fake_robot_step(&world.robot, &world.outputs.command);
+        for (int i = 0; i < 25; i++) {
+            world.inputs.state_age += world.config.period;
+            world.inputs.crossed = 0;
+            world_tick(false);
+        }
         for (int i = 0; i < 4; i++) {
             held[i] = fake_robot_state(&world.robot);
             fake_robot_step(&world.robot, &(reach_robot_command_t){0});
