@@ -21,8 +21,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const int claim_ms = 300; /* time for another daemon to answer */
-
 /* Everything that lives from start to end. */
 struct reachd {
     struct arguments arguments;
@@ -64,16 +62,8 @@ static int claim_bus(struct reachd *reachd, char *error, size_t error_size)
 {
     if (open_bus(reachd, error, error_size))
         return -1;
-    switch (bus_claim_role(reachd->lcm, REACH_HELLO_T_DAEMON, claim_ms, &reachd->claim)) {
-    case 0:
-        return 0;
-    case 1:
-        snprintf(error, error_size, "another reachd is on this bus; end it first, or use --url");
-        return -1;
-    default:
-        snprintf(error, error_size, "the bus failed");
-        return -1;
-    }
+    return bus_claim_alone(reachd->lcm, REACH_HELLO_T_DAEMON, "reachd", &reachd->claim, error,
+                           error_size);
 }
 
 /* The control step, and who keeps its model, from which it goes on. */

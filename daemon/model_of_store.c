@@ -1,7 +1,6 @@
 #include "daemon/model_of_store.h"
 
 #include <assert.h>
-#include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -134,35 +133,13 @@ struct model_port model_of_store(struct model_store *store)
     return (struct model_port){&ops, store};
 }
 
-static int check_entry(const char *directory, const char *name, char *error, size_t error_size)
-{
-    char path[2 * OPTION_MAX_TEXT];
-    struct stat status;
-
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    if (stat(path, &status) || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode))
-        return 0;
-    snprintf(error, error_size, "%.300s: is not a regular file", path);
-    return -1;
-}
-
 int model_of_store_check(const struct config *config, char *error, size_t error_size)
 {
     const char *path = config->model_directory;
-    const struct dirent *entry;
-    DIR *directory;
-    int result = 0;
+    struct stat status;
 
-    if (!path[0])
+    if (!path[0] || (stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
         return 0;
-    directory = opendir(path);
-    if (!directory) {
-        snprintf(error, error_size, "model.directory: %.300s is not a directory; make it first",
-                 path);
-        return -1;
-    }
-    while (result == 0 && (entry = readdir(directory)) != NULL)
-        result = check_entry(path, entry->d_name, error, error_size);
-    closedir(directory);
-    return result;
+    snprintf(error, error_size, "model.directory: %.300s is not a directory; make it first", path);
+    return -1;
 }

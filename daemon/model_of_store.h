@@ -13,8 +13,7 @@ struct model_store_settings model_of_store_settings(const struct config *config,
                                                     const struct finder_port *finder,
                                                     const struct body *start);
 
-/* Whether the folder of models is one, and nothing in it could make its reader wait: a pipe in the
- * place of a snapshot would hold up the start. Returns 0, or -1 with one line in `error`. */
+/* Whether the folder of models is one. Returns 0, or -1 with one line in `error`. */
 int model_of_store_check(const struct config *config, char *error, size_t error_size);
 
 /* `store` stays the caller's. */

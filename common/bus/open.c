@@ -13,6 +13,7 @@
 
 static const char hello_channel[] = "REACH_HELLO";
 
+static const int claim_ms = 300; /* time for another of our kind to answer */
 static const int self_test_ms = 500;
 static const int receive_buffer_wanted = 8 << 20; /* bytes */
 
@@ -200,6 +201,22 @@ int bus_claim_role(lcm_t *lcm, int8_t role, int wait_ms, struct bus_claim **resu
         handle_until(lcm, &claim->taken, wait_ms) < 0)
         return -1;
     return claim->taken ? 1 : 0;
+}
+
+int bus_claim_alone(lcm_t *lcm, int8_t role, const char *program, struct bus_claim **claim,
+                    char *error, size_t error_size)
+{
+    switch (bus_claim_role(lcm, role, claim_ms, claim)) {
+    case 0:
+        return 0;
+    case 1:
+        snprintf(error, error_size, "another %s is on this bus; end it first, or use --url",
+                 program);
+        return -1;
+    default:
+        snprintf(error, error_size, "the bus failed");
+        return -1;
+    }
 }
 
 void bus_claim_free(struct bus_claim *claim)

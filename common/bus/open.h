@@ -37,6 +37,9 @@ lcm_t *bus_open(const char *url, char *error, size_t error_size);
  *   returns 0, 1 when another program already has the role, -1 when the bus fails. */
 struct bus_claim;
 int bus_claim_role(lcm_t *lcm, int8_t role, int wait_ms, struct bus_claim **claim);
+/* The same for `program`, of which a bus bears one. Returns 0, or -1 with one line in `error`. */
+int bus_claim_alone(lcm_t *lcm, int8_t role, const char *program, struct bus_claim **claim,
+                    char *error, size_t error_size);
 void bus_claim_free(struct bus_claim *claim);
 
 /* Microseconds since the epoch, CLOCK_REALTIME. */

@@ -17,8 +17,6 @@
 #include <time.h>
 #include <unistd.h>
 
-static const int claim_ms = 300; /* time for another finder to answer */
-
 struct arguments {
     const char *url;
 };
@@ -141,18 +139,8 @@ static int run(const struct arguments *arguments, char *error, size_t error_size
 
     if (!lcm)
         return -1;
-    switch (bus_claim_role(lcm, REACH_HELLO_T_FINDER, claim_ms, &claim)) {
-    case 0:
+    if (bus_claim_alone(lcm, REACH_HELLO_T_FINDER, "reach-finder", &claim, error, error_size) == 0)
         result = serve_on_bus(lcm, error, error_size);
-        break;
-    case 1:
-        snprintf(error, error_size,
-                 "another reach-finder is on this bus; end it first, or use --url");
-        break;
-    default:
-        snprintf(error, error_size, "the bus failed");
-        break;
-    }
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return result;

@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const int claim_ms = 300; /* time for another service to answer */
-
 struct arguments {
     struct option_sources configuration;
     const char *url;
@@ -56,18 +54,9 @@ static int serve_on_bus(const struct arguments *arguments, const struct settings
 
     if (!lcm)
         return -1;
-    switch (bus_claim_role(lcm, REACH_HELLO_T_LEARNER, claim_ms, &claim)) {
-    case 0:
+    if (bus_claim_alone(lcm, REACH_HELLO_T_LEARNER, "reach-learner", &claim, error, error_size) ==
+        0)
         result = server_run(settings, lcm, error, error_size);
-        break;
-    case 1:
-        snprintf(error, error_size,
-                 "another reach-learner is on this bus; end it first, or use --url");
-        break;
-    default:
-        snprintf(error, error_size, "the bus failed");
-        break;
-    }
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return result;

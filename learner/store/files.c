@@ -4,14 +4,30 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const int most_set_aside = 1000;
 
+/* Opening a pipe would wait for its other end, and reading one for ever. */
 static int system_open(const char *path, int flags)
 {
-    return open(path, flags | O_CLOEXEC, 0644);
+    int file = open(path, flags | O_NONBLOCK | O_CLOEXEC, 0644);
+    struct stat status;
+
+    if (file < 0 ||
+        (fstat(file, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode))))
+        return file;
+    close(file);
+    errno = ENXIO;
+    return -1;
+}
+
+const char *files_reason(void)
+{
+    return errno == ENXIO ? "is not a regular file" : strerror(errno);
 }
 
 static int system_list(const char *directory, files_name_fn *take, void *user)

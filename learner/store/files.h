@@ -11,7 +11,8 @@ typedef void files_name_fn(void *user, const char *name);
 
 /* As the calls of POSIX: -1 with errno set is failure. */
 struct files {
-    int (*open)(const char *path, int flags); /* of open(2); new files get mode 0644 */
+    /* Flags of open(2); new files get mode 0644. ENXIO: neither a regular file nor a directory. */
+    int (*open)(const char *path, int flags);
     ssize_t (*read)(int file, void *bytes, size_t size);
     ssize_t (*write)(int file, const void *bytes, size_t size);
     int (*sync)(int file);      /* fsync: all of it is on the disk */
@@ -24,6 +25,9 @@ struct files {
 };
 
 extern const struct files files_system;
+
+/* errno of a call above in words. */
+const char *files_reason(void);
 
 /* Writes all of it. Returns 0, or -1. */
 int files_write_all(const struct files *files, int file, const void *bytes, size_t size);

@@ -269,7 +269,7 @@ int journal_read(const struct files *files, const char *path, struct journal_rea
     const char *wrong;
 
     if (scan.file < 0) {
-        snprintf(reason, reason_size, "%s: %s", path, strerror(errno));
+        snprintf(reason, reason_size, "%s: %s", path, files_reason());
         return -1;
     }
     wrong =

@@ -24,7 +24,7 @@ static void give_up_journal(struct model_store *store, int64_t now, const char *
     char trouble[MODEL_REASON_MOST];
 
     snprintf(trouble, sizeof trouble, "%s: %s: %s", store->settings.directory, what,
-             strerror(errno));
+             files_reason());
     journal_close(&store->journal);
     atomic_store_explicit(&store->storing, false, memory_order_relaxed);
     store->retry_at = now + retry_us;
@@ -114,7 +114,7 @@ static void save_model(struct model_store *store)
     path_of(store, path);
     model_capture(&store->model, store->shadow);
     if (write_model(store, path)) {
-        log_error("%s: %s", path, strerror(errno));
+        log_error("%s: %s", path, files_reason());
         model_store_set_stage(store, FAILED);
         return;
     }

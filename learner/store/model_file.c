@@ -190,7 +190,7 @@ static enum model_file_result read_into(const struct files *files, const char *p
     enum model_file_result result;
 
     if (file < 0) {
-        snprintf(reason, reason_size, "%s: %s", path, strerror(errno));
+        snprintf(reason, reason_size, "%s: %s", path, files_reason());
         return errno == ENOENT ? MODEL_FILE_ABSENT : MODEL_FILE_UNREADABLE;
     }
     result = read_file(files, file, &sink);

@@ -3,6 +3,8 @@
 #include "learner/store/model_file.h"
 
 #include <check.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -96,6 +98,31 @@ static uint64_t hash_of(const struct learner *learner)
 uint64_t store_bench_hash(const struct store_bench *bench)
 {
     return hash_of(bench->learner);
+}
+
+static pthread_t house;
+static _Atomic bool ending;
+
+static void *keep_house(void *user)
+{
+    struct store_bench *bench = user;
+    int64_t now = 1;
+
+    while (!atomic_load_explicit(&ending, memory_order_relaxed))
+        model_store_serve(bench->store, now += 1000);
+    return NULL;
+}
+
+void store_bench_keep_house(struct store_bench *bench)
+{
+    atomic_store(&ending, false);
+    ck_assert_int_eq(pthread_create(&house, NULL, keep_house, bench), 0);
+}
+
+void store_bench_end_house(void)
+{
+    atomic_store(&ending, true);
+    pthread_join(house, NULL);
 }
 
 void store_bench_close(struct store_bench *bench)

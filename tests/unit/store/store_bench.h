@@ -33,6 +33,10 @@ void store_bench_learn(struct store_bench *bench, int samples);
 /* Housekeeping, a second later. */
 void store_bench_serve(struct store_bench *bench);
 
+/* Housekeeping as fast as it goes, in a thread of its own until it is ended. One at a time. */
+void store_bench_keep_house(struct store_bench *bench);
+void store_bench_end_house(void);
+
 /* Of the loop's learner. */
 uint64_t store_bench_hash(const struct store_bench *bench);
 

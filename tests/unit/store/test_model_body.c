@@ -6,8 +6,6 @@
 #include "learner/store/model_file.h"
 #include "tests/unit/suite.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -291,30 +289,17 @@ START_TEST(without_a_directory)
 }
 END_TEST
 
-static _Atomic bool ending;
-
-static void *keep_house(void *user)
-{
-    struct store_bench *bench = user;
-    int64_t now = 1;
-
-    while (!atomic_load_explicit(&ending, memory_order_relaxed))
-        model_store_serve(bench->store, now += 1000);
-    return NULL;
-}
-
 /* Under the thread sanitizer this finds what they share. */
 START_TEST(two_threads)
 {
     const struct timespec moment = {.tv_nsec = 200000};
     struct store_bench bench;
-    pthread_t house;
     uint64_t given[100];
     int n = 0;
 
     begin();
     bench = store_bench_create(&settings);
-    ck_assert_int_eq(pthread_create(&house, NULL, keep_house, &bench), 0);
+    store_bench_keep_house(&bench);
     while (model_samples(bench.learner) < 400) {
         uint64_t now = body_bench_tick(&bench);
         ck_assert_int_lt(n, 100);
@@ -322,8 +307,7 @@ START_TEST(two_threads)
             given[n++] = now;
         nanosleep(&moment, NULL);
     }
-    atomic_store(&ending, true);
-    pthread_join(house, NULL);
+    store_bench_end_house();
     uint64_t samples = model_samples(bench.learner);
     ck_assert_int_gt(n, 1);
     ck_assert_uint_eq(store_bench_hash(&bench), body_bench_hash_at(&settings, samples, given, n));

@@ -119,6 +119,12 @@ START_TEST(a_damaged_file_is_refused)
     ck_assert_int_eq(load(&bench), MODEL_STORE_FAILED);
     unlink(path);
     ck_assert_int_eq(load(&bench), MODEL_STORE_FAILED);
+    ck_assert_int_eq(mkfifo(path, 0600), 0); /* nobody ever writes into it */
+    ck_assert_int_eq(load(&bench), MODEL_STORE_FAILED);
+    unlink(path);
+    ck_assert_int_eq(mkdir(path, 0700), 0);
+    ck_assert_int_eq(load(&bench), MODEL_STORE_FAILED);
+    rmdir(path);
     store_bench_close(&bench);
     rmdir(directory);
 }

@@ -7,23 +7,10 @@
 #include "store_bench.h"
 #include "tests/unit/suite.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
 static const int requests = 20; /* that are carried out */
-static _Atomic bool ending;
-
-static void *keep_house(void *user)
-{
-    struct store_bench *bench = user;
-    int64_t now = 1;
-
-    while (!atomic_load_explicit(&ending, memory_order_relaxed))
-        model_store_serve(bench->store, now += 1000);
-    return NULL;
-}
 
 /* One tick: a sample, and now and then a request. Returns whether a request was carried out. */
 static bool tick(struct store_bench *bench, int i)
@@ -44,7 +31,6 @@ START_TEST(two_threads)
     char directory[] = "/tmp/reach-threads-XXXXXX";
     struct model_store_settings settings;
     struct store_bench bench;
-    pthread_t house;
     uint64_t samples;
     int done = 0;
 
@@ -54,14 +40,13 @@ START_TEST(two_threads)
     settings.snapshot_samples = 100;
     settings.sync_us = 2000;
     bench = store_bench_create(&settings);
-    ck_assert_int_eq(pthread_create(&house, NULL, keep_house, &bench), 0);
+    store_bench_keep_house(&bench);
     for (int i = 0; done < requests; i++) {
         done += tick(&bench, i);
         ck_assert_int_le(model_store_report(bench.store).stored,
                          (int64_t)model_samples(bench.learner));
     }
-    atomic_store(&ending, true);
-    pthread_join(house, NULL);
+    store_bench_end_house();
     samples = model_samples(bench.learner);
     ck_assert_uint_eq(store_bench_hash(&bench), store_bench_hash_at(&settings, samples));
     store_bench_close(&bench);
