@@ -31,6 +31,17 @@ struct reading {
     const struct argument_row *last; /* option */
 };
 
+int command_words_take(struct command_words *words, const char *text, char *error,
+                       size_t error_size)
+{
+    if (words->n == COMMAND_WORDS_MOST) {
+        snprintf(error, error_size, "too many arguments");
+        return -1;
+    }
+    words->word[words->n++] = text;
+    return 0;
+}
+
 int command_line_wrong(const struct command_line *line, const char *format, ...)
 {
     va_list arguments;

@@ -97,6 +97,17 @@ struct option_sources {
                   "LCM bus (default $LCM_DEFAULT_URL, else " BUS_DEFAULT_URL ")")
 /* NOLINTEND(bugprone-macro-parentheses) */
 
+/* Words that belong to no option, such as a command and its own arguments. */
+enum { COMMAND_WORDS_MOST = 8 };
+struct command_words {
+    const char *word[COMMAND_WORDS_MOST]; /* argv's */
+    int n;
+};
+
+/* For take_word below. Returns 0, or -1 with one line in `error` when there are too many. */
+int command_words_take(struct command_words *words, const char *text, char *error,
+                       size_t error_size);
+
 struct command_line {
     const char *program;
     const char *usage;               /* how it is called, a line each way */

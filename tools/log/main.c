@@ -10,11 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_WORDS = 3 };
-
 struct arguments {
-    const char *words[MAX_WORDS]; /* the command and its files */
-    int n_words;
+    struct command_words words; /* the command and its files */
     bool json;
     struct extract_settings extract;
 };
@@ -42,14 +39,7 @@ static int take_to(void *user, const char *text, char *error, size_t error_size)
 
 static int take_word(void *user, const char *text, char *error, size_t error_size)
 {
-    struct arguments *arguments = user;
-
-    if (arguments->n_words == MAX_WORDS) {
-        snprintf(error, error_size, "too many arguments");
-        return -1;
-    }
-    arguments->words[arguments->n_words++] = text;
-    return 0;
+    return command_words_take(&((struct arguments *)user)->words, text, error, error_size);
 }
 
 static const struct argument_row rows[] = {
@@ -98,7 +88,7 @@ static int show_info(struct event_log *log, const struct arguments *arguments, c
         else if (arguments->json)
             info_print_json(survey, stdout);
         else
-            info_print(survey, arguments->words[1], stdout);
+            info_print(survey, arguments->words.word[1], stdout);
     }
     if (survey)
         survey_free(survey);
@@ -111,9 +101,9 @@ static int make_log(struct event_log *log, const struct arguments *arguments, ch
 {
     struct extract_report report;
 
-    if (extract(log, &arguments->extract, arguments->words[2], &report, error, error_size))
+    if (extract(log, &arguments->extract, arguments->words.word[2], &report, error, error_size))
         return -1;
-    printf("reach-log: %s: %lld events", arguments->words[2], (long long)report.taken);
+    printf("reach-log: %s: %lld events", arguments->words.word[2], (long long)report.taken);
     if (report.left)
         printf(", %lld not asked for", (long long)report.left);
     if (report.skipped)
@@ -124,14 +114,14 @@ static int make_log(struct event_log *log, const struct arguments *arguments, ch
 
 static int carry_out(const struct arguments *arguments, char *error, size_t error_size)
 {
-    const char *path = arguments->words[1];
+    const char *path = arguments->words.word[1];
     struct event_log *log = event_log_open(path, EVENT_LOG_KEEP_ALL, error, error_size);
     char reason[400];
     int result;
 
     if (!log)
         return -1;
-    if (arguments->n_words == 2) {
+    if (arguments->words.n == 2) {
         result = show_info(log, arguments, reason, sizeof reason);
         if (result)
             snprintf(error, error_size, "%s: %s", path, reason);
@@ -145,16 +135,16 @@ static int carry_out(const struct arguments *arguments, char *error, size_t erro
 static const char *wrong_words(const struct arguments *arguments)
 {
     const struct extract_settings *extract = &arguments->extract;
-    const char *command = arguments->n_words ? arguments->words[0] : "";
+    const char *command = arguments->words.n ? arguments->words.word[0] : "";
     bool parts = extract->channels || extract->from > 0 || extract->to >= 0;
 
     if (strcmp(command, "info") == 0)
-        return arguments->n_words != 2 ? "info wants a file"
+        return arguments->words.n != 2 ? "info wants a file"
                : parts                 ? "--from, --to and --channels belong to cut"
                                        : NULL;
     if (strcmp(command, "cut") != 0 && strcmp(command, "repair") != 0)
         return "a command is wanted: info, cut or repair";
-    if (arguments->n_words != 3)
+    if (arguments->words.n != 3)
         return "a log and the name of a new one are wanted";
     if (arguments->json)
         return "--json belongs to info";

@@ -13,12 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_WORDS = 8 };
-
 struct arguments {
     struct command_settings settings;
-    const char *words[MAX_WORDS]; /* the command and its own arguments */
-    int n_words;
+    struct command_words words; /* the command and its own arguments */
 };
 
 static const struct argument_row rows[] = {
@@ -45,14 +42,7 @@ static const struct argument_row rows[] = {
 
 static int take_word(void *user, const char *text, char *error, size_t error_size)
 {
-    struct arguments *arguments = user;
-
-    if (arguments->n_words == MAX_WORDS) {
-        snprintf(error, error_size, "too many arguments");
-        return -1;
-    }
-    arguments->words[arguments->n_words++] = text;
-    return 0;
+    return command_words_take(&((struct arguments *)user)->words, text, error, error_size);
 }
 
 static const struct command_line line = {
@@ -169,7 +159,8 @@ int main(int argc, char **argv)
     status = command_line_parse(&line, argc, argv, &arguments);
     if (status >= 0)
         return status;
-    if (command_parse(arguments.words, arguments.n_words, settings, &call, error, sizeof error))
+    if (command_parse(arguments.words.word, arguments.words.n, settings, &call, error,
+                      sizeof error))
         return command_line_wrong(&line, "%s", error);
     if (carry_out(&call, settings, error, sizeof error) == 0)
         return EXIT_SUCCESS;
