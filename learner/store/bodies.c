@@ -214,8 +214,8 @@ static void take_answer(struct model_store *store)
     search->came = true;
     search->absent = false;
     if (search->answer.kind == BODY_ANSWER_REPORT) {
-        take_report(store);
         look_at_body(store);
+        take_report(store);
     } else if (search->answer.kind == BODY_ANSWER_REFUSED) {
         log_error("reach-finder refuses to search: %s", search->answer.report.why);
         end_search(store, MODEL_STORE_NOT_YET);
@@ -306,6 +306,7 @@ void model_store_give_body(struct model_store *store, int64_t now)
         model_capture(&store->model, store->shadow);
         if (!search->forget)
             atomic_store_explicit(&store->search.outcome, MODEL_STORE_FOUND, memory_order_relaxed);
+        look_at_body(store);
         model_store_set_stage(store, BODY_GIVEN);
         return;
     }

@@ -82,9 +82,7 @@ def run(options: argparse.Namespace) -> list[dict]:
     return rows
 
 
-def parse(arguments: list[str] | None) -> argparse.Namespace:
-    names = [study.name for study in studies(True)]
-    bodies = ["body", *(study.name for study in body_studies())]
+def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
     parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--draws", type=int, help="draws of every study; default 5, of a body 10, or 2 with --quick"
@@ -128,6 +126,12 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
         "--jobs", type=int, default=2, help="of a body and of curves: draws at once; default 2"
     )
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
+    return parser
+
+
+def parse(arguments: list[str] | None) -> argparse.Namespace:
+    bodies = ["body", *(study.name for study in body_studies())]
+    parser = _parser([study.name for study in studies(True)], bodies)
     options = parser.parse_args(arguments)
     options.body = any(name in bodies for name in options.only)
     if options.body and not all(name in bodies for name in options.only):

@@ -61,28 +61,29 @@ def _list(values) -> str:
     return "[" + " ".join("-" if v is None else f"{v:.2g}" for v in values) + "]"
 
 
-def _rows(result: dict) -> list[tuple]:
-    """(what, the paper's, ours, met or None)."""
+def _babbling_rows(babbling: dict) -> list[tuple]:
     rows = []
-    for name, who in (("hand", "hand"), ("tool", "tool")):
-        ours, paper = result["babbling"][name], metrics.PAPER_RMSE_PCT[name]
+    for name in ("hand", "tool"):
+        ours, paper = babbling[name], metrics.PAPER_RMSE_PCT[name]
         met = all(
             a <= _RMSE_FACTOR * b + 1e-9 for a, b in zip(ours["rmse_pct"], paper, strict=True)
         )
         rows += [
-            (f"test error, {who}, % of range [yaw pitch disparity]", _list(paper),
+            (f"test error, {name}, % of range [yaw pitch disparity]", _list(paper),
              _list(ours["rmse_pct"]), met),
-            (f"test error, {who}, [deg deg px]", _list(metrics.PAPER_RMSE[name]),
+            (f"test error, {name}, [deg deg px]", _list(metrics.PAPER_RMSE[name]),
              _list(ours["rmse"]), None),
-            (f"test error against the truth, {who}, [deg deg px]", "", _list(ours["rmse_true"]),
+            (f"test error against the truth, {name}, [deg deg px]", "", _list(ours["rmse_true"]),
              None),
         ]  # fmt: skip
-    hand = result["babbling"]["hand"]
-    rows.append(("hand again, after the tool, % of range", "no degradation",
-                 _list(hand["final"]["rmse_pct"]), None))  # fmt: skip
+    again = _list(babbling["hand"]["final"]["rmse_pct"])
+    return [*rows, ("hand again, after the tool, % of range", "no degradation", again, None)]
+
+
+def _star_rows(star: dict) -> list[tuple]:
+    rows = []
     for name in ("hand", "tool"):
-        star = result["star"][name]
-        error, straight = star["final_error_px"], star["straightness"]
+        error, straight = star[name]["final_error_px"], star[name]["straightness"]
         met = error["median"] <= _STAR_LIMITS["median"] and error["max"] <= _STAR_LIMITS["max"]
         rows += [
             (f"STAR, {name}: final error, median / worst, px", "reached",
@@ -90,13 +91,20 @@ def _rows(result: dict) -> list[tuple]:
             (f"STAR, {name}: deviation from the straight line / its length, median / worst",
              "almost straight", f"{straight['median']:.3f} / {straight['max']:.3f}", None),
         ]  # fmt: skip
-    marker, wall = result["marker_error_px"], result["wall"]
+    return rows
+
+
+def _rows(result: dict) -> list[tuple]:
+    """(what, the paper's, ours, met or None)."""
+    marker, wall, found = result["marker_error_px"], result["wall"], result["body"]
     spread = _list(marker[key] for key in ("std_u", "std_v", "std_d"))
     wrong = result["wrong_frames"] / max(1, result["frames"])
     return [
-        *rows,
-        ("body: samples it was found from; error, of the noise; searches", "",
-         _body(result["body"]), None),
+        *_babbling_rows(result["babbling"]),
+        *_star_rows(result["star"]),
+        ("body: samples it was found from; error, of the noise; searches", "", _body(found), None),
+        ("motion that no rigid chain explains, with the tool of the last search, [deg deg px]", "",
+         _list(found["not_rigid"]) if found else "-", None),
         ("experts; contexts told apart; solutions on average", "", f"{result['experts']};"
          f" {result['contexts']}; {result['solutions_mean']:.2f}", None),
         ("vision's error, standard deviation of [u v disparity], px", "about 2", spread, None),

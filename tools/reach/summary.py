@@ -128,6 +128,7 @@ def body(last: np.ndarray) -> dict | None:
         "error": float(last["body_error"]),
         "doubt": float(last["body_doubt"]),
         "searches": int(last["body_searches"]),
+        "not_rigid": metrics.to_people(last["body_not_rigid"]).tolist(),
     }
 
 
