@@ -123,6 +123,53 @@ START_TEST(it_is_forgotten_on_disk_too)
 }
 END_TEST
 
+/* What a search under way would still find belongs to what is forgotten. */
+START_TEST(a_search_under_way_is_given_up)
+{
+    struct store_bench bench = begin();
+    int before;
+
+    ticks_until(&bench, true);
+    before = body_bench_finder.asked;
+    body_bench_finder.absent = true; /* asked, and silent */
+    while (body_bench_finder.asked == before) {
+        body_bench_tick(&bench);
+        serve(&bench);
+    }
+    ck_assert_int_eq(model_store_report(bench.store).search, MODEL_STORE_SEARCHING);
+    int64_t old = body_bench_finder.seq;
+    model_store_begin_forgetting(bench.store);
+    ticks_until(&bench, false);
+    ck_assert_int_gt((int)body_bench_finder.seq, (int)old);
+    body_bench_finder.seq = old; /* the late answer */
+    body_bench_finder.absent = false;
+    for (int i = 0; i < 3; i++) {
+        body_bench_tick(&bench);
+        serve(&bench);
+    }
+    ck_assert_ptr_null(learner_body(bench.learner));
+    end(&bench);
+}
+END_TEST
+
+START_TEST(without_a_directory_it_is_the_same)
+{
+    struct store_bench bench = begin();
+
+    end(&bench);
+    settings.directory = "";
+    bench = store_bench_create(&settings);
+    uint64_t given = ticks_until(&bench, true);
+    body_bench_finder.absent = true;
+    model_store_begin_forgetting(bench.store);
+    uint64_t taken = ticks_until(&bench, false);
+    ck_assert_uint_eq(
+        store_bench_hash(&bench),
+        body_bench_hash_forgetting(&settings, model_samples(bench.learner), &given, 1, taken));
+    store_bench_close(&bench);
+}
+END_TEST
+
 START_TEST(the_body_in_use_is_told_when_asked)
 {
     struct store_bench bench = begin();
@@ -163,6 +210,8 @@ int main(void)
     const TTest *const tests[] = {
         the_search_begins_anew,
         it_is_forgotten_on_disk_too,
+        a_search_under_way_is_given_up,
+        without_a_directory_it_is_the_same,
         the_body_in_use_is_told_when_asked,
         the_first_search_begins_with_a_given_body,
     };
