@@ -34,10 +34,10 @@ enum finder_outcome {
 
 struct finder_report {
     enum finder_outcome outcome;
-    int samples;   /* used */
-    int starts;    /* tried */
-    double error;  /* of the best body over samples kept apart, rms, in units of settings.noise */
-    double doubt;  /* rms standard deviation of its tip over the joints' range seen, of its length */
+    int samples;  /* used */
+    int starts;   /* tried */
+    double error; /* of the best body over samples kept apart, rms, in units of settings.noise */
+    double doubt; /* rms standard deviation of its tip over the joints' range seen, of its length */
     char why[160]; /* one line */
     /* There is a body: the one that was found, or one that explains the samples and is not sure
      * enough, with which the next search may begin. */

@@ -194,12 +194,24 @@ class Learner:
             for request in requests:
                 under_way.append(_UnderWay(self, request))
                 if len(under_way) == WINDOW:
-                    answers.append(under_way[0].answer())
-                    under_way.popleft().forget()
-            return answers + [one.answer() for one in under_way]
+                    answers.append(self._first_answer(under_way))
+            while under_way:
+                answers.append(self._first_answer(under_way))
+            return answers
         finally:
             for one in under_way:
                 one.forget()
+
+    def _first_answer(self, under_way: deque) -> object:
+        """Waits for the oldest one's answer, and meanwhile keeps asking for all: each has
+        `timeout` from its own sending, which it must not spend behind the others."""
+        first = under_way[0]
+        while (found := first.answer()) is None:
+            for one in under_way:
+                one.send_again_if_due()
+            self._handle(0.05)
+        under_way.popleft().forget()
+        return found
 
     def _handle(self, seconds: float) -> None:
         self._lcm.handle_timeout(max(0, int(seconds * 1000)))
@@ -224,19 +236,20 @@ class _UnderWay:
         self._learner._answers.pop(self._request.seq, None)
 
     def answer(self):
-        """Waits for it."""
-        while True:
-            found = self._learner._answers[self._request.seq]
-            if found is not None and not self._goes_on(found):
-                return found
-            now = time.monotonic()
-            if now > self._end:
-                raise NoAnswerError(
-                    f"no answer from reach-learner in {self._learner._timeout:g} s: does it run?"
-                )
-            if now - self._sent > RESEND_SECONDS:
-                self._send()
-            self._learner._handle(0.05)
+        """The last word on it, or None as long as there is none."""
+        found = self._learner._answers[self._request.seq]
+        if found is not None and not self._goes_on(found):
+            return found
+        if time.monotonic() > self._end:
+            raise NoAnswerError(
+                f"no answer from reach-learner in {self._learner._timeout:g} s: does it run?"
+            )
+        return None
+
+    def send_again_if_due(self) -> None:
+        unanswered = self._learner._answers[self._request.seq] is None
+        if unanswered and time.monotonic() - self._sent > RESEND_SECONDS:
+            self._send()
 
     def _goes_on(self, found) -> bool:
         """Whether this answer is not the last word."""
