@@ -33,6 +33,9 @@ struct envelope {
     uint64_t checksum; /* of everything after the envelope, continued over the fields above */
 };
 
+_Static_assert(offsetof(struct envelope, experts) == LEARNER_SAVED_IDENTITY,
+               "what comes before says whose state it is");
+
 static const char magic[8] = "RLEARNER";
 static const uint64_t version = 3;
 

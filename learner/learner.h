@@ -282,6 +282,10 @@ struct learner_statistics learner_get_statistics(const struct learner *learner);
 size_t learner_save_size(const struct learner *learner);
 size_t learner_save(const struct learner *learner, void *buffer, size_t size);
 
+/* Saved states that one learner takes begin with the same bytes, so many (what a state holds may
+ * still be more than the capacity). */
+enum { LEARNER_SAVED_IDENTITY = 48 };
+
 /* Replaces the state by a saved one. Returns 0, or -1 with one line in err
  * when the bytes are damaged, of another version, of other dimensions or
  * parameters (capacity may differ), or have more experts than fit; the state

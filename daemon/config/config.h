@@ -73,7 +73,8 @@ struct config {
 
     char model_directory[OPTION_MAX_TEXT];
     bool model_automatic;
-    int model_snapshot, model_keep;
+    int model_snapshot, model_keep, model_saved_most;
+    double model_snapshot_budget; /* MB a day */
     double model_sync; /* s */
 
     /* What follows from the rows above (derived.c). */

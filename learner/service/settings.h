@@ -15,7 +15,9 @@ struct settings {
     int kind; /* enum learner_kind */
     char model_directory[OPTION_MAX_TEXT];
     int model_snapshot;
+    double model_snapshot_budget; /* MB a day */
     int model_keep;
+    int model_saved_most;
     bool learn_frozen;
 };
 

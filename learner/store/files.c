@@ -49,6 +49,15 @@ static int system_lock(int file, bool shared)
     return flock(file, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB);
 }
 
+static int64_t system_written(const char *path)
+{
+    struct stat status;
+
+    if (stat(path, &status))
+        return -1;
+    return (int64_t)status.st_mtim.tv_sec * 1000000000 + status.st_mtim.tv_nsec;
+}
+
 const struct files files_system = {
     .open = system_open,
     .read = read,
@@ -59,6 +68,7 @@ const struct files files_system = {
     .rename = rename,
     .remove = unlink,
     .list = system_list,
+    .written = system_written,
     .lock = system_lock,
 };
 

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <sys/types.h>
 
 typedef void files_name_fn(void *user, const char *name);
@@ -21,7 +22,8 @@ struct files {
     int (*rename)(const char *from, const char *to);
     int (*remove)(const char *path);
     int (*list)(const char *directory, files_name_fn *take, void *user); /* in any order */
-    int (*lock)(int file, bool shared); /* flock without waiting; EWOULDBLOCK: another has it */
+    int64_t (*written)(const char *path); /* when it was written last: grows; -1 = unknown */
+    int (*lock)(int file, bool shared);   /* flock without waiting; EWOULDBLOCK: another has it */
 };
 
 extern const struct files files_system;

@@ -1,6 +1,7 @@
 #include "learner/store/generations.h"
 
 #include "common/program/log.h"
+#include "learner/store/head.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -84,6 +85,7 @@ static int load_snapshot(struct work *work, int64_t number)
     if (model_file_read(work->generations->files, path, work->model, work->reason,
                         sizeof work->reason) != MODEL_FILE_READ)
         return -1;
+    work->recovery->stored = work->model->samples;
     if (learner_load(work->learner, work->model->bytes, work->model->size, why, sizeof why) == 0)
         return 0;
     snprintf(work->reason, sizeof work->reason, "%s: %s", path, why);
@@ -132,10 +134,11 @@ static int learn_journal(struct work *work, int64_t number)
                      sizeof work->reason))
         return -1;
     if (reading.torn >= 0)
-        log_warning("%s: cut off at byte %lld, where writing was interrupted; no sample that "
-                    "counted as stored is lost",
-                    path, reading.torn);
+        log_warning("%s: cut off at byte %lld, where writing was interrupted; all that is marked "
+                    "as stored is there, up to sample %llu",
+                    path, reading.torn, (unsigned long long)reading.stored);
     work->recovery->from_journals += reading.number - work->model->samples;
+    work->recovery->stored = reading.stored;
     model_capture(work->model, work->learner);
     return 0;
 }
@@ -209,6 +212,7 @@ static int write_aside(const struct generations *generations, const char *snapsh
         why = errno;
         journal_close(journal);
         files->remove(path);
+        head_remove(files, path);
         errno = why;
     }
     why = errno;
@@ -246,7 +250,8 @@ static void set_damaged_aside(struct generations *generations)
 
     while (find_neighbours(generations, found.below, &found) == 0 && found.below >= 0) {
         path_of(generations, found.below, snapshot_suffix, path);
-        if (model_file_check(generations->files, path, reason, sizeof reason) == MODEL_FILE_READ)
+        if (model_file_check(generations->files, path, NULL, reason, sizeof reason) ==
+            MODEL_FILE_READ)
             continue;
         if (files_set_aside(generations->files, path, aside, sizeof aside))
             log_warning("%s: cannot be set aside: %s", path, strerror(errno));

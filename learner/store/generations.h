@@ -1,5 +1,6 @@
 /* The model that lives on by itself, in one directory: generations, each a snapshot
- * (current-N.imle) and the journal of what was learned after it (current-N.journal).
+ * (current-N.imle) and the journal of what was learned after it (current-N.journal, and beside it
+ * current-N.journal.head).
  *
  * A new generation begins at every start and whenever the journal has grown long enough. Its
  * snapshot gets its name last, when everything else of it is safe; older ones go only after that.
@@ -28,6 +29,7 @@ struct recovery {
     bool any;               /* false: there was none */
     int64_t generation;     /* the one that was read first */
     uint64_t from_journals; /* samples */
+    uint64_t stored;        /* the newest sample that was told to be safe */
 };
 
 /* Brings a learner that knows nothing to the state on disk: the newest snapshot and its journal.

@@ -1,5 +1,7 @@
 #include "learner/store/journal.h"
 
+#include "learner/store/head.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stddef.h>
@@ -56,12 +58,14 @@ int journal_create(struct journal *journal, const struct files *files, const cha
 {
     struct header header = {.version = format_version, .first = first, .model = model};
     int file = files->open(path, O_WRONLY | O_CREAT | O_EXCL);
+    int head = -1;
 
     if (file < 0)
         return -1;
     memcpy(header.magic, magic, sizeof magic);
     header.checksum = header_checksum(&header);
-    if (files_write_all(files, file, &header, sizeof header) || files->sync(file)) {
+    if (files_write_all(files, file, &header, sizeof header) || files->sync(file) ||
+        (head = head_create(files, path)) < 0) {
         int why = errno;
         files->close(file);
         files->remove(path);
@@ -70,6 +74,7 @@ int journal_create(struct journal *journal, const struct files *files, const cha
     }
     *journal = (struct journal){.files = files,
                                 .file = file,
+                                .head = head,
                                 .seed = header.checksum,
                                 .first = first,
                                 .appended = first,
@@ -129,13 +134,16 @@ int journal_commit(struct journal *journal)
         return -1;
     journal->stored = journal->appended;
     journal->bodies_stored = journal->bodies;
-    return 0;
+    return head_append(journal->files, journal->head, journal->seed,
+                       (struct head){journal->stored, journal->bodies_stored});
 }
 
 void journal_close(struct journal *journal)
 {
-    if (journal->file >= 0)
+    if (journal->file >= 0) {
         journal->files->close(journal->file);
+        journal->files->close(journal->head);
+    }
     journal->file = -1;
 }
 
@@ -237,6 +245,7 @@ static const char *read_records(struct scan *scan, struct journal_reading *readi
     for (; next_record(scan, &record, &good); scan->at += (long long)sizeof record) {
         const char *wrong = NULL;
         if (good && record.kind == MARK) {
+            reading->stored = record.sample.number;
             if (mark_holds(scan, &record, reading->number))
                 continue;
             scan->at = scan->bad < 0 ? scan->at : scan->bad;
@@ -260,6 +269,18 @@ static const char *read_records(struct scan *scan, struct journal_reading *readi
     return scan->unreadable ? "it cannot be read" : NULL;
 }
 
+/* What the file beside it says was stored is there. */
+static const char *head_fault(struct scan *scan, const char *path,
+                              const struct journal_reading *reading)
+{
+    struct head head = head_read(scan->files, path, scan->seed);
+
+    if (head.number <= reading->number && (double)head.bodies <= scan->bodies)
+        return NULL;
+    scan->at = scan->bad < 0 ? scan->at : scan->bad;
+    return "cut short: what its .head file says was stored is gone";
+}
+
 int journal_read(const struct files *files, const char *path, struct journal_reading *reading,
                  const struct journal_visitor *visitor, char *reason, size_t reason_size)
 {
@@ -276,8 +297,11 @@ int journal_read(const struct files *files, const char *path, struct journal_rea
         header_fault(&header, files_read_all(files, scan.file, &header, sizeof header), reading);
     scan.seed = header.checksum;
     scan.at = wrong ? 0 : sizeof header;
+    reading->stored = reading->number;
     if (!wrong)
         wrong = read_records(&scan, reading);
+    if (!wrong)
+        wrong = head_fault(&scan, path, reading);
     files->close(scan.file);
     if (wrong)
         snprintf(reason, reason_size, "%s: at byte %lld: %s", path, scan.at, wrong);

@@ -33,6 +33,7 @@ struct journal_body {
 struct journal {
     const struct files *files;
     int file;          /* -1 = none */
+    int head;          /* learner/store/head.h; open as long as the file is */
     uint32_t seed;     /* of the records' checksums: a record of another journal never fits */
     uint64_t first;    /* number that the snapshot stands at */
     uint64_t appended; /* number of the newest sample written */
@@ -65,6 +66,7 @@ bool journal_is_empty(const struct files *files, const char *path);
 struct journal_reading {
     uint64_t model;  /* in: hash of the model that it must continue */
     uint64_t number; /* in: number that the model stands at; out: after the last sample */
+    uint64_t stored; /* out: the last sample that a mark says is safe */
     long long torn;  /* out: offset where a torn end was cut off; -1 = it ends whole */
 };
 

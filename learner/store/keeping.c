@@ -1,5 +1,6 @@
 /* The store's work in the housekeeping thread: samples into the journal and the shadow, snapshots,
  * saving and loading by number. */
+#include "learner/store/saved.h"
 #include "learner/store/store_private.h"
 
 #include "common/program/log.h"
@@ -44,6 +45,8 @@ static void begin_generation(struct model_store *store, int64_t now)
     }
     journal_close(&store->journal);
     store->journal = next;
+    store->snapshot_at = now;
+    store->snapshot_bytes = store->model.size;
     store->waiting_since = 0;
     publish(store);
     atomic_store_explicit(&store->storing, true, memory_order_relaxed);
@@ -63,13 +66,27 @@ static void commit_journal(struct model_store *store, int64_t now)
     publish(store);
 }
 
+static bool journal_is_long(const struct model_store *store)
+{
+    return store->journal.appended - store->journal.first >=
+           (uint64_t)store->settings.snapshot_samples;
+}
+
+/* Snapshots may write so many bytes a second in the mean: the larger the newest one was, the longer
+ * the next waits. Until then the journal holds what is learned. */
+static bool budget_allows(const struct model_store *store, int64_t now)
+{
+    double seconds = (double)(now - store->snapshot_at) * 1e-6;
+
+    return store->settings.snapshot_rate <= 0 ||
+           seconds * store->settings.snapshot_rate >= (double)store->snapshot_bytes;
+}
+
 static bool snapshot_is_due(const struct model_store *store, int64_t now)
 {
-    const struct journal *journal = &store->journal;
-
-    if (journal->file < 0)
+    if (store->journal.file < 0)
         return now >= store->retry_at;
-    return journal->appended - journal->first >= (uint64_t)store->settings.snapshot_samples;
+    return journal_is_long(store) && budget_allows(store, now);
 }
 
 static void store_what_is_due(struct model_store *store, int64_t now)
@@ -83,37 +100,15 @@ static void store_what_is_due(struct model_store *store, int64_t now)
         begin_generation(store, now);
 }
 
-static void path_of(const struct model_store *store, char *path)
-{
-    snprintf(path, MODEL_PATH_MOST, "%s/model-%d.imle", store->settings.directory,
-             store->model_number);
-}
-
-static int write_model(const struct model_store *store, const char *path)
-{
-    char reason[MODEL_REASON_MOST];
-    char aside[MODEL_PATH_MOST + 16];
-    enum model_file_result before = model_file_check(store->files, path, reason, sizeof reason);
-
-    if (before != MODEL_FILE_READ && before != MODEL_FILE_ABSENT) {
-        if (files_set_aside(store->files, path, aside, sizeof aside))
-            return -1;
-        log_warning("%s; set aside as %s", reason, aside);
-    }
-    return model_file_write_aside(store->files, path, &store->model) ||
-                   model_file_place(store->files, store->settings.directory, path)
-               ? -1
-               : 0;
-}
-
 /* Exactly the model that was asked for: called when the shadow stands at its sample. */
 static void save_model(struct model_store *store)
 {
     char path[MODEL_PATH_MOST];
 
-    path_of(store, path);
+    saved_path(store->settings.directory, store->model_number, path);
     model_capture(&store->model, store->shadow);
-    if (write_model(store, path)) {
+    if (saved_write(store->files, store->settings.directory, store->model_number,
+                    store->settings.saved_most, &store->model)) {
         log_error("%s: %s", path, files_reason());
         model_store_set_stage(store, FAILED);
         return;
@@ -161,7 +156,7 @@ static void load_model(struct model_store *store, int64_t now)
     char path[MODEL_PATH_MOST];
     char reason[MODEL_REASON_MOST];
 
-    path_of(store, path);
+    saved_path(store->settings.directory, store->model_number, path);
     if (read_model(store, path, reason, sizeof reason)) {
         log_error("%s", reason);
         model_store_set_stage(store, FAILED);
@@ -267,7 +262,8 @@ static void store_the_rest(struct model_store *store)
     drain(store, 0);
     if (store->journal.file >= 0)
         commit_journal(store, 0);
-    if (store->journal.file < 0)
+    /* A long journal would be learned anew at the next start. */
+    if (store->journal.file < 0 || journal_is_long(store))
         begin_generation(store, 0);
     if (store->journal.file >= 0)
         log_info("%s: stored up to sample %llu", store->settings.directory,

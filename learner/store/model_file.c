@@ -103,6 +103,8 @@ void model_file_drop_aside(const struct files *files, const char *path)
 /* Where what is read goes: into the model, or, without one, only through the checksum. */
 struct sink {
     struct model_bytes *model;
+    const struct model_bytes *like; /* without a model */
+    bool foreign;                   /* than that */
     unsigned char chunk[CHUNK];
     const char *wrong; /* NULL = nothing so far */
     int64_t at;        /* offset of what is wrong */
@@ -146,6 +148,9 @@ static enum model_file_result read_bytes(const struct files *files, int file,
         if (got < 0)
             return found(sink, MODEL_FILE_UNREADABLE, at, strerror(errno));
         checksum = (uint32_t)crc32(checksum, to, (uInt)got);
+        if (at == sizeof *header && sink->like)
+            sink->foreign = got < LEARNER_SAVED_IDENTITY ||
+                            memcmp(to, sink->like->bytes, LEARNER_SAVED_IDENTITY) != 0;
         at += got;
         left -= (uint64_t)got;
         if ((size_t)got < want)
@@ -156,6 +161,9 @@ static enum model_file_result read_bytes(const struct files *files, int file,
     if (checksum != header->checksum)
         return found(sink, MODEL_FILE_DAMAGED, CHECKED_FROM,
                      "damaged: the checksum of all that follows differs");
+    if (sink->foreign)
+        return found(sink, MODEL_FILE_FOREIGN, sizeof *header,
+                     "the model of another robot or of other parameters");
     return MODEL_FILE_READ;
 }
 
@@ -183,9 +191,10 @@ static enum model_file_result read_file(const struct files *files, int file, str
 }
 
 static enum model_file_result read_into(const struct files *files, const char *path,
-                                        struct model_bytes *model, char *reason, size_t reason_size)
+                                        struct model_bytes *model, const struct model_bytes *like,
+                                        char *reason, size_t reason_size)
 {
-    struct sink sink = {.model = model};
+    struct sink sink = {.model = model, .like = like};
     int file = files->open(path, O_RDONLY);
     enum model_file_result result;
 
@@ -203,11 +212,12 @@ static enum model_file_result read_into(const struct files *files, const char *p
 enum model_file_result model_file_read(const struct files *files, const char *path,
                                        struct model_bytes *model, char *reason, size_t reason_size)
 {
-    return read_into(files, path, model, reason, reason_size);
+    return read_into(files, path, model, NULL, reason, reason_size);
 }
 
-enum model_file_result model_file_check(const struct files *files, const char *path, char *reason,
+enum model_file_result model_file_check(const struct files *files, const char *path,
+                                        const struct model_bytes *like, char *reason,
                                         size_t reason_size)
 {
-    return read_into(files, path, NULL, reason, reason_size);
+    return read_into(files, path, NULL, like, reason, reason_size);
 }

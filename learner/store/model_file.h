@@ -55,8 +55,10 @@ enum model_file_result {
 enum model_file_result model_file_read(const struct files *files, const char *path,
                                        struct model_bytes *model, char *reason, size_t reason_size);
 
-/* The same checks without keeping what is read. */
-enum model_file_result model_file_check(const struct files *files, const char *path, char *reason,
+/* The same checks without keeping what is read, and whether a learner that takes `like` would take
+ * it; FOREIGN otherwise. */
+enum model_file_result model_file_check(const struct files *files, const char *path,
+                                        const struct model_bytes *like, char *reason,
                                         size_t reason_size);
 
 #endif

@@ -96,6 +96,8 @@ static int recover(struct model_store *store, struct recovery *recovery, char *e
     model_capture(&store->model, store->shadow);
     store->shadow_number = store->number = store->model.samples;
     store->moment.model = recovery->any ? store->model.hash : 0;
+    atomic_store_explicit(&store->stored, model_store_pack(0, recovery->stored),
+                          memory_order_release);
     return 0;
 }
 

@@ -25,7 +25,9 @@
 struct model_store_settings {
     const char *directory; /* kept, not copied; empty: nothing is stored, saved or loaded */
     bool automatic;        /* keep what is learned, and go on from it at start */
-    int snapshot_samples;  /* samples of a journal after which a snapshot is made */
+    int snapshot_samples;  /* samples of a journal after which a snapshot is made, */
+    double snapshot_rate;  /* at most so many bytes a second in the mean; 0 = no bound */
+    int saved_most;        /* models saved by number; the oldest go first; 0 = no bound */
     int64_t sync_us;       /* longest time that a learned sample waits for the disk */
     int keep;              /* generations on disk */
     struct learner_config learner;

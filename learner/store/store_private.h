@@ -88,6 +88,8 @@ struct model_store {
     struct journal journal;
     int64_t waiting_since; /* the oldest sample that is not stored, monotonic us; 0 = none */
     int64_t retry_at;      /* monotonic us */
+    int64_t snapshot_at;   /* monotonic us: when the newest snapshot was made, */
+    size_t snapshot_bytes; /* and how large it was */
     char trouble[MODEL_REASON_MOST]; /* what the log was told; "" = all is well */
 };
 

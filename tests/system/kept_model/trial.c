@@ -29,11 +29,15 @@ void trial_prepare(struct trial *trial, const char *reachd, const char *config)
     const char *const options[] = {"--config", config,
                                    "--set",    trial->set_directory,
                                    "--set",    "model.snapshot=8",
+                                   "--set",    "model.snapshot_budget=0",
                                    "--set",    "model.sync=0.01",
                                    "--set",    "fixation.frames=3",
                                    "--set",    "babble.tolerance=3"};
     char error[500];
 
+    _Static_assert(sizeof options / sizeof options[0] + 2 <
+                       sizeof trial->options / sizeof trial->options[0],
+                   "one more, and the end");
     memcpy(trial->options, options, sizeof options);
     strcpy(trial->directory, "/tmp/reach-kept-XXXXXX");
     if (!mkdtemp(trial->directory) ||

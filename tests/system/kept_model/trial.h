@@ -14,7 +14,7 @@ struct trial {
     char directory[64]; /* of the model */
     char log[80];       /* of the daemons */
     char set_directory[100];
-    const char *options[16];
+    const char *options[32]; /* ends with NULL; room for one that a test adds */
     struct config config;
     struct reachd_process daemon;
     struct robot_on_bus robot;

@@ -14,6 +14,7 @@
 
 /* What a file holds, and what of it would be there after a loss of power. */
 struct inode {
+    int64_t written; /* the operation that did */
     size_t size, synced_size;
     bool sync_failed; /* the system has forgotten that the bytes are not on the disk */
     unsigned char now[MOST_BYTES];
@@ -84,6 +85,9 @@ static struct name *find_or_make(const char *text)
 
     if (!name) {
         name = find("");
+        for (int i = 0; !name && i < MOST_NAMES; i++)
+            if (names[i].now < 0 && names[i].synced < 0)
+                name = &names[i]; /* gone for good */
         if (!name)
             abort(); /* MOST_NAMES are too few */
         snprintf(name->text, sizeof name->text, "%s", text);
@@ -176,6 +180,7 @@ static ssize_t fake_write(int file, const void *bytes, size_t size)
         size = 1 + (size_t)some_of((int)size - 1);
     if (size > room)
         size = room;
+    inode->written = fake_disk.operations;
     memcpy(inode->now + inode->size, bytes, size);
     inode->size += size;
     if (!failed && size == 0)
@@ -260,6 +265,13 @@ static int fake_lock(int file, bool shared)
     return 0;
 }
 
+static int64_t fake_written(const char *path)
+{
+    const struct name *name = find(path);
+
+    return name && name->now >= 0 ? inodes[name->now].written : -1;
+}
+
 const struct files fake_disk_files = {
     .open = fake_open,
     .read = fake_read,
@@ -270,6 +282,7 @@ const struct files fake_disk_files = {
     .rename = fake_rename,
     .remove = fake_remove,
     .list = fake_list,
+    .written = fake_written,
     .lock = fake_lock,
 };
 

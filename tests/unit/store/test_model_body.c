@@ -162,7 +162,7 @@ static long size_of(const char *path)
 START_TEST(a_torn_body_is_cut_off)
 {
     struct store_bench bench;
-    char path[100];
+    char path[120];
 
     begin();
     settings.sync_us = INT64_MAX; /* no marks but the body's and the first's */
@@ -183,6 +183,8 @@ START_TEST(a_torn_body_is_cut_off)
         copy_directory(copy);
         journal_path(copy, path, sizeof path);
         ck_assert_int_eq(truncate(path, cuts[i]), 0);
+        strcat(path, ".head"); /* as the power's loss cuts: this one was not synced either */
+        ck_assert_int_eq(unlink(path), 0);
         uint64_t left = i == 0 ? samples : given;
         ck_assert_uint_eq(recover(copy, left),
                           body_bench_hash_at(&settings, left, &given, cuts[i] >= body_ends));

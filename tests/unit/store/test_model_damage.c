@@ -137,7 +137,7 @@ START_TEST(a_missing_file)
     lives_two();
     while (fake_disk_name(files))
         files++;
-    ck_assert_int_eq(files, 4); /* two snapshots, two journals */
+    ck_assert_int_eq(files, 6); /* two snapshots, two journals, a head of each */
     for (int i = 0; i < files; i++) {
         fake_disk_reset(lives.seed);
         stored = lives_two();
@@ -149,11 +149,40 @@ START_TEST(a_missing_file)
 }
 END_TEST
 
+/* Cut between two records, a journal is whole by its own checksums. */
+START_TEST(a_journal_that_was_cut_short_is_refused)
+{
+    const size_t record = 208;
+    const size_t header = 32;
+    const char *name = NULL;
+    size_t size = 0;
+    int64_t stored;
+
+    lives_setup("model_damage");
+    lives.settings.keep = 1;
+    fake_disk_reset(lives.seed);
+    stored = lives_two();
+    for (int i = 0; (name = fake_disk_name(i)); i++)
+        if (strcmp(name + strlen(name) - strlen(".journal"), ".journal") == 0)
+            break;
+    ck_assert_ptr_nonnull(name);
+    fake_disk_bytes(name, &size);
+    ck_assert_uint_gt(size, header + 2 * record);
+    fake_disk_truncate(name, size - record); /* the mark alone: no sample is gone */
+    ck_assert(start_or_refuse(stored, name, "the last mark cut off"));
+    for (size_t left = header; left < size - record; left += record) {
+        fake_disk_truncate(name, left);
+        ck_assert(!start_or_refuse(stored, name, "cut off"));
+        ck_assert_ptr_nonnull(strstr(lives.error, "cut short"));
+    }
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {a_bit_flipped_anywhere,
                                   a_damaged_snapshot_after_a_load_is_refused, evidence_is_kept,
-                                  a_missing_file};
+                                  a_missing_file, a_journal_that_was_cut_short_is_refused};
 
     return SUITE_RUN("model_damage", tests);
 }
