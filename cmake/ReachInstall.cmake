@@ -115,7 +115,7 @@ file(READ etc/systemd/hardening.conf hardening)
 string(STRIP "${hardening}" hardening)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS etc/systemd/hardening.conf)
 set(reachd_units
-    reach.target reach-bus.service reachd.service reach-finder.service reach-vision.service
+    reach.target reach-failed.target reach-bus.service reachd.service reach-finder.service reach-vision.service
     reach-learner.service)
 set(reach-sim_units reach-simrobot.service)
 set(reach-tools_units reach-lcm-setup.service)

@@ -74,7 +74,7 @@ class Services(unittest.TestCase):
     def test_people_can_read_how_it_goes(self):
         self.learns(2)
         text = self.machine.property("reachd.service", "StatusText")
-        self.assertRegex(text, r"^\w+, \w+ \(\w+\) \d+ of \d+; \d+ samples, \d+ experts; worst")
+        self.assertRegex(text, r"^\w+, \w+ \(\w+\) \d+ of \d+; \d+ samples, \d+ to be stored, \d+ experts; worst")
         for unit in ("reach-vision.service", "reach-simrobot.service"):
             self.assertTrue(self.machine.property(unit, "StatusText"), unit)
 
@@ -135,6 +135,18 @@ class Services(unittest.TestCase):
         self.kill("reachd.service", "SIGSTOP")
         self.assertIn("Watchdog timeout", self.machine.run("journalctl", "--no-pager"))
         self.learns(1)
+
+    def test_the_target_does_not_claim_what_has_failed(self):
+        """A service that systemd gives up takes the target with it; a new start clears it."""
+        robot = self.machine.run("cat", "/etc/reach/robot.env")
+        self.machine.run("sh", "-c", "echo ROBOT=nobody >/etc/reach/robot.env")
+        self.machine.run("systemctl", "restart", "reachd.service", check=False)
+        eventually(lambda: self.state("reach-failed.target") == "active", "the failure is told")
+        self.assertEqual(self.state("reachd.service"), "failed")
+        eventually(lambda: self.state("reach.target") == "inactive", "the target is off")
+        self.machine.run("sh", "-c", f"echo '{robot.strip()}' >/etc/reach/robot.env")
+        self.start()
+        self.assertEqual(self.state("reach-failed.target"), "inactive")
 
     def test_what_was_learned_outlives_a_stop(self):
         self.learns(3)

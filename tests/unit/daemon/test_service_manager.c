@@ -92,7 +92,12 @@ START_TEST(test_line_for_people_once_a_second)
                              .progress = 12,
                              .progress_total = 60,
                              .samples = 123,
+                             .model_samples = 223,
+                             .samples_stored = 220,
+                             .storing = 1,
                              .experts = 5,
+                             .bad_inputs = 7,
+                             .dropped_samples = 1,
                              .compute_max_us = 830.4,
                              .overruns = 2};
 
@@ -101,12 +106,14 @@ START_TEST(test_line_for_people_once_a_second)
     service_manager_begin(&service);
     heard();
     service_manager_tell(&service, 2000000, 1, false, &status);
-    ck_assert_str_eq(heard(), "STATUS=active, babble (fixate) 12 of 60; 123 samples, 5 experts; "
-                              "worst tick 830 us, 2 overruns");
+    ck_assert_str_eq(heard(), "STATUS=active, babble (fixate) 12 of 60; 123 samples, 3 to be "
+                              "stored, 5 experts; worst tick 830 us, 2 overruns; 7 messages "
+                              "refused, 1 samples dropped");
+    status.storing = 0;
     service_manager_tell(&service, 2999999, 2, false, &status);
     ck_assert_str_eq(heard(), "");
     service_manager_tell(&service, 3000000, 3, false, &status);
-    ck_assert_str_ne(heard(), "");
+    ck_assert_ptr_nonnull(strstr(heard(), "123 samples, not stored, 5 experts"));
 }
 END_TEST
 
