@@ -17,7 +17,8 @@ static const char *const faults[] = {"none",
                                      "a joint moves the wrong way",
                                      "a joint moves otherwise than told"};
 static const char *const states[] = {"waiting", "idle", "active", "hold", "suspended", "fault"};
-static const char *const behaviours[] = {"none", "babble", "coordinate", "reach", "explore"};
+static const char *const behaviours[] = {"none",  "babble",  "coordinate",
+                                         "reach", "explore", "check-motors"};
 static const char *const phases[] = {"done", "move", "fixate", "search", "collect", "track"};
 static const char *const results[] = {"accepted", "refused, not in this state",
                                       "refused, a value is out of range", "pending",
@@ -29,7 +30,7 @@ static const char *const bodies[] = {"none yet", "searching", "found", "not a ch
 static_assert(COUNT(bodies) == REACH_STATUS_T_BODY_NO_FINDER + 1, "a name for each body");
 static_assert(COUNT(faults) == REACH_STATUS_T_FAULT_ASTRAY + 1, "a name for each fault");
 static_assert(COUNT(states) == REACH_STATUS_T_FAULT + 1, "a name for each state");
-static_assert(COUNT(behaviours) == REACH_STATUS_T_EXPLORE + 1, "a name for each behaviour");
+static_assert(COUNT(behaviours) == REACH_STATUS_T_CHECK_MOTORS + 1, "a name for each behaviour");
 static_assert(COUNT(phases) == REACH_STATUS_T_TRACK + 1, "a name for each phase");
 static_assert(COUNT(results) == REACH_STATUS_T_FAILED + 1, "a name for each result");
 

@@ -79,6 +79,11 @@ void client_destroy(struct client *client)
     free(client);
 }
 
+lcm_t *client_bus(struct client *client)
+{
+    return client->lcm;
+}
+
 /* Handles messages for at most this long. Returns false when the time is over. */
 static bool handle_before(struct client *client, int64_t deadline)
 {

@@ -5,6 +5,7 @@
 #include "learner/body/body.h"
 #include "tools/reachctl/command.h"
 
+#include <lcm/lcm.h>
 #include <reach_status_t.h>
 
 struct client;
@@ -13,6 +14,9 @@ struct client;
  *   returns NULL with one line in `error` */
 struct client *client_create(const char *url, char *error, size_t error_size);
 void client_destroy(struct client *client);
+
+/* The bus that it listens on, for whoever wants to hear more; the client's. */
+lcm_t *client_bus(struct client *client);
 
 /* Blocks for at most `timeout` seconds until the daemon's next status, which stays valid until the
  * next call.

@@ -169,6 +169,8 @@ static const struct command daemon_commands[] = {
      "reach for 8 directions and back to the centre; --period S"},
     {"reach", "A B C", 3, CALL_DAEMON, REACH_REQUEST_T_REACH, fill_reach,
      "bring the end-effector to A B C: u, v, disparity in px, or x, y, z in m"},
+    {"check-motors", "", 0, CALL_MOTORS, REACH_REQUEST_T_CHECK_MOTORS, NULL,
+     "move each joint by 2 degrees in turn; say sign, scale, delay and backlash of its motion"},
     {"stop", "", 0, CALL_DAEMON, REACH_REQUEST_T_STOP, NULL, "end what the robot does"},
     {"emergency", "", 0, CALL_DAEMON, REACH_REQUEST_T_EMERGENCY, NULL,
      "stop the arm at once; the daemon stays in fault until reset-fault"},

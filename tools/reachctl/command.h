@@ -31,6 +31,7 @@ enum call_kind {
     CALL_DOCTOR,     /* examine machine and bus */
     CALL_ECHO,       /* print the messages of `channel` */
     CALL_BODY,       /* send `request`, show the body that comes */
+    CALL_MOTORS,     /* send `request`, judge the motion of each joint */
     CALL_DAEMON,     /* send `request` */
     CALL_SIMULATOR,  /* send `sim` */
     CALL_UNANSWERED, /* send `sim`, whose receiver ends before it could answer */

@@ -5,6 +5,7 @@
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
+#include "tools/reachctl/motors/check.h"
 #include "tools/reachctl/view/echo.h"
 #include "tools/reachctl/view/show.h"
 #include "tools/reachctl/view/top.h"
@@ -117,6 +118,8 @@ static int ask(struct client *client, struct call *call, const struct command_se
         return settings->wait
                    ? client_follow(client, &call->request, settings->timeout, error, error_size)
                    : 0;
+    case CALL_MOTORS:
+        return motors_check(client, &call->request, settings->timeout, error, error_size);
     case CALL_SIMULATOR:
         return client_ask_simulator(client, &call->sim, settings->timeout, error, error_size);
     case CALL_UNANSWERED:

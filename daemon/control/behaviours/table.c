@@ -3,6 +3,7 @@
 /* A row for each: the name of its ops. */
 #define BEHAVIOURS(ROW)                                                                            \
     ROW(behaviour_babble)                                                                          \
+    ROW(behaviour_check_motors)                                                                    \
     ROW(behaviour_coordinate)                                                                      \
     ROW(behaviour_explore)                                                                         \
     ROW(behaviour_reach)
