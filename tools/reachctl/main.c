@@ -5,7 +5,7 @@
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
-#include "tools/reachctl/motors/check.h"
+#include "tools/reachctl/motors/hearing.h"
 #include "tools/reachctl/view/echo.h"
 #include "tools/reachctl/view/show.h"
 #include "tools/reachctl/view/top.h"
@@ -103,6 +103,29 @@ static int show_body_in_use(struct client *client, const struct call *call,
     return 0;
 }
 
+/* What was heard is judged, too, when one of the joints has made the daemon stop. */
+static int check_motors(struct client *client, reach_request_t *request, double timeout,
+                        char *error, size_t error_size)
+{
+    struct motors_hearing *hearing = motors_listen(client_bus(client));
+    int result = -1;
+    int bad;
+
+    if (!hearing) {
+        snprintf(error, error_size, "out of memory");
+        return -1;
+    }
+    if (client_ask_daemon(client, request, timeout, error, error_size) == 0)
+        result = client_follow(client, request, timeout, error, error_size);
+    bad = motors_print(hearing);
+    motors_end(hearing);
+    if (result || bad == 0)
+        return result;
+    snprintf(error, error_size, "%d %s not well; see docs/howto/robot-driver.md", bad,
+             bad == 1 ? "joint is" : "joints are");
+    return -1;
+}
+
 /* What needs somebody who answers. */
 static int ask(struct client *client, struct call *call, const struct command_settings *settings,
                char *error, size_t error_size)
@@ -119,7 +142,7 @@ static int ask(struct client *client, struct call *call, const struct command_se
                    ? client_follow(client, &call->request, settings->timeout, error, error_size)
                    : 0;
     case CALL_MOTORS:
-        return motors_check(client, &call->request, settings->timeout, error, error_size);
+        return check_motors(client, &call->request, settings->timeout, error, error_size);
     case CALL_SIMULATOR:
         return client_ask_simulator(client, &call->sim, settings->timeout, error, error_size);
     case CALL_UNANSWERED:

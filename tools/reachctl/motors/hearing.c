@@ -1,4 +1,4 @@
-#include "tools/reachctl/motors/check.h"
+#include "tools/reachctl/motors/hearing.h"
 
 #include "tools/reachctl/motors/judge.h"
 
@@ -14,7 +14,10 @@ enum { QUEUE = 1000 /* messages that may wait */ };
 enum { MOST_JOINTS = 16, MOST_ROWS = 1 << 16 /* twenty minutes at 50 Hz */ };
 
 /* What was heard: a row a command, with the newest state before it. */
-struct hearing {
+struct motors_hearing {
+    lcm_t *bus;
+    reach_robot_state_t_subscription_t *states;
+    reach_robot_command_t_subscription_t *commands;
     int n_joints;
     size_t n;
     bool has_state;
@@ -25,7 +28,7 @@ struct hearing {
 static void on_state(const lcm_recv_buf_t *message, const char *channel,
                      const reach_robot_state_t *state, void *user)
 {
-    struct hearing *hearing = user;
+    struct motors_hearing *hearing = user;
 
     (void)message, (void)channel;
     hearing->has_state = state->n_joints >= 1 && state->n_joints <= MOST_JOINTS;
@@ -35,7 +38,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel,
 static void on_command(const lcm_recv_buf_t *message, const char *channel,
                        const reach_robot_command_t *command, void *user)
 {
-    struct hearing *hearing = user;
+    struct motors_hearing *hearing = user;
 
     (void)message, (void)channel;
     if (!hearing->has_state || command->n_joints != hearing->state.n_joints ||
@@ -60,11 +63,12 @@ static void print_number(double value, int width, int digits)
         printf("%*.*f", width, digits, value);
 }
 
-/* Returns how many joints are not well. */
-static int print_table(const struct hearing *hearing)
+int motors_print(const struct motors_hearing *hearing)
 {
     int bad = 0;
 
+    if (hearing->n == 0)
+        return -1;
     printf("joint  motion           scale  delay, ms  backlash, deg\n");
     for (int i = 0; i < hearing->n_joints; i++) {
         struct motor_report report = motor_judge(hearing->rows[i], hearing->n);
@@ -78,47 +82,24 @@ static int print_table(const struct hearing *hearing)
     return bad;
 }
 
-/* The rest of the joints is judged, too, when one of them has made the daemon stop. */
-static int listen(struct client *client, struct hearing *hearing, reach_request_t *request,
-                  double timeout, char *error, size_t error_size)
+struct motors_hearing *motors_listen(lcm_t *bus)
 {
-    lcm_t *bus = client_bus(client);
-    reach_robot_state_t_subscription_t *states =
-        reach_robot_state_t_subscribe(bus, "ROBOT_STATE", on_state, hearing);
-    reach_robot_command_t_subscription_t *commands =
-        reach_robot_command_t_subscribe(bus, "ROBOT_COMMAND", on_command, hearing);
-    int result;
+    struct motors_hearing *hearing = calloc(1, sizeof *hearing);
 
+    if (!hearing)
+        return NULL;
+    hearing->bus = bus;
+    hearing->states = reach_robot_state_t_subscribe(bus, "ROBOT_STATE", on_state, hearing);
+    hearing->commands = reach_robot_command_t_subscribe(bus, "ROBOT_COMMAND", on_command, hearing);
     /* In lockstep they come as fast as the simulator goes. */
-    reach_robot_state_t_subscription_set_queue_capacity(states, QUEUE);
-    reach_robot_command_t_subscription_set_queue_capacity(commands, QUEUE);
-    result = client_ask_daemon(client, request, timeout, error, error_size) ||
-                     client_follow(client, request, timeout, error, error_size)
-                 ? -1
-                 : 0;
-    reach_robot_state_t_unsubscribe(bus, states);
-    reach_robot_command_t_unsubscribe(bus, commands);
-    return result;
+    reach_robot_state_t_subscription_set_queue_capacity(hearing->states, QUEUE);
+    reach_robot_command_t_subscription_set_queue_capacity(hearing->commands, QUEUE);
+    return hearing;
 }
 
-int motors_check(struct client *client, reach_request_t *request, double timeout, char *error,
-                 size_t error_size)
+void motors_end(struct motors_hearing *hearing)
 {
-    struct hearing *hearing = calloc(1, sizeof *hearing);
-    int result;
-    int bad;
-
-    if (!hearing) {
-        snprintf(error, error_size, "out of memory");
-        return -1;
-    }
-    result = listen(client, hearing, request, timeout, error, error_size);
-    bad = hearing->n > 0 ? print_table(hearing) : 0;
+    reach_robot_state_t_unsubscribe(hearing->bus, hearing->states);
+    reach_robot_command_t_unsubscribe(hearing->bus, hearing->commands);
     free(hearing);
-    if (result == 0 && bad > 0) {
-        snprintf(error, error_size, "%d %s not well; see docs/howto/robot-driver.md", bad,
-                 bad == 1 ? "joint is" : "joints are");
-        return -1;
-    }
-    return result;
 }
