@@ -188,7 +188,10 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f"\nreach-new-robot: stopped; what was written is in {options.out}", file=sys.stderr)
         return 130
-    except (UnusableError, ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
+    except ExperimentError as error:
+        print(f"reach-new-robot: {error}{trial.explanation(options.out)}", file=sys.stderr)
+        return 1
+    except (UnusableError, NoAnswerError, ProcessDiedError, OSError) as error:
         print(f"reach-new-robot: {error}", file=sys.stderr)
         return 1
 

@@ -31,6 +31,15 @@ def check(simulator: Path) -> tuple[bool, list[str]]:
     return done.returncode == 0, (done.stdout + done.stderr).splitlines()
 
 
+def explanation(out: Path) -> str:
+    """What the simulator said of a daemon that stopped or refused, with the joint's name; or ""."""
+    log = out / "simrobot.log"
+    said = log.read_text(errors="replace").splitlines() if log.exists() else []
+    return "".join(
+        f"; {line}" for line in said if "reachd stops" in line or "reachd refuses" in line
+    )
+
+
 def explore(bus: Bus, clock: HeldClock | RealClock, samples: int, seed: int) -> reach.status_t:
     """From nothing. Returns the daemon's last word."""
     experiment = Experiment(bus, clock, Progress({"explore": 1.0}), [])
