@@ -51,6 +51,7 @@ std::unique_ptr<SimBus> SimBus::open(const char *url, const char *truth_url,
 bool SimBus::subscribe(std::string *error)
 {
     if (lcm_subscribe(lcm_, "ROBOT_COMMAND", on_command, this) &&
+        lcm_subscribe(lcm_, "REACH_STATUS", on_status, this) &&
         lcm_subscribe(truth_lcm_, "SIM_REQUEST", on_request, this))
         return true;
     *error = "LCM refused to subscribe";
@@ -126,6 +127,25 @@ bool SimBus::take_command(Command *command)
         return false;
     *command = command_;
     has_command_ = false;
+    return true;
+}
+
+void SimBus::on_status(const lcm_recv_buf_t *message, const char *, void *user)
+{
+    auto *bus = static_cast<SimBus *>(user);
+
+    if (reach_status_t_decode(message->data, 0, static_cast<int>(message->data_size),
+                              &bus->status_) < 0)
+        return bus->refuse("REACH_STATUS", "not a status_t");
+    bus->has_status_ = true;
+}
+
+bool SimBus::take_status(reach_status_t *status)
+{
+    if (!has_status_)
+        return false;
+    *status = status_;
+    has_status_ = false;
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include <reach_sim_contacts_t.h>
 #include <reach_sim_request_t.h>
 #include <reach_sim_truth_t.h>
+#include <reach_status_t.h>
 
 #include <deque>
 #include <memory>
@@ -46,6 +47,10 @@ public:
     /* The newest command, if one has come since it was last taken. */
     bool take_command(Command *command);
 
+    /* What reachd said last of itself.
+     *   returns whether there is something new. */
+    bool take_status(reach_status_t *status);
+
     /* The oldest request that waits. Repeats (same seq) are not handed out. */
     bool take_request(reach_sim_request_t *request);
 
@@ -74,6 +79,7 @@ private:
     bool subscribe(std::string *error);
     static void on_command(const lcm_recv_buf_t *message, const char *channel, void *user);
     static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user);
+    static void on_status(const lcm_recv_buf_t *message, const char *channel, void *user);
     void receive_command(const lcm_recv_buf_t *message);
 
     lcm_t *lcm_ = nullptr;
@@ -82,6 +88,8 @@ private:
     std::vector<std::string> joint_names_;
     Command command_ = {};
     bool has_command_ = false;
+    reach_status_t status_ = {};
+    bool has_status_ = false;
     std::deque<reach_sim_request_t> requests_;
     int64_t last_request_ = 0;
     int64_t refused_ = 0;

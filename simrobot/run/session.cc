@@ -11,7 +11,8 @@ namespace sim
 
 Session::Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
                  const ClockControl &control, bool send_truth)
-    : simulation_(simulation), bus_(bus), eyes_(eyes), control_(control), send_truth_(send_truth),
+    : simulation_(simulation), bus_(bus), daemon_watch_(simulation.rig(), config.ball_mass),
+      eyes_(eyes), control_(control), send_truth_(send_truth),
       send_effector_(config.effector_published), exposures_(std::llround(config.latency * 1e6))
 {
 }
@@ -73,8 +74,20 @@ void Session::handle_requests()
 
     while (bus_.take_request(&request))
         carry_out(request);
+    look_at_daemon();
     if ((stood || standing()) && request_seq_ != before)
         publish_truth(false, state_.seq);
+}
+
+void Session::look_at_daemon()
+{
+    reach_status_t status;
+
+    if (!bus_.take_status(&status))
+        return;
+    std::string line = daemon_watch_.look(status, state_, bus_monotonic_us());
+    if (!line.empty())
+        log_warning("%s", line.c_str());
 }
 
 /* Out before the state that it is due with, so that who waits for the state has it. */

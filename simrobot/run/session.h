@@ -5,6 +5,7 @@
 
 #include "simrobot/eyes/exposures.h"
 #include "simrobot/run/bus.h"
+#include "simrobot/run/daemon_watch.h"
 #include "simrobot/world/simulation.h"
 
 namespace sim
@@ -47,8 +48,8 @@ public:
         return control_.paused || now() > control_.until;
     }
 
-    /* Carries out all requests that wait. A clock that stood or now stands acknowledges at once;
-     * else the next state's truth does. */
+    /* Carries out all requests that wait, and says what reachd has against this robot. A clock that
+     * stood or now stands acknowledges at once; else the next state's truth does. */
     void handle_requests();
 
     const ClockControl &control() const
@@ -100,9 +101,11 @@ private:
     void measure_effector();
     void publish_truth(bool exposure, int64_t seq);
     void publish_contacts(const Truth &truth);
+    void look_at_daemon();
 
     Simulation &simulation_;
     SimBus &bus_;
+    DaemonWatch daemon_watch_;
     EyeThread *eyes_;
     ClockControl control_;
     bool send_truth_;

@@ -48,7 +48,7 @@ def run_commands() -> dict[str, str]:
 
 
 def run_help(command: str) -> str:
-    return run_commands()[command] + module_help(f"reach.{command}")
+    return run_commands()[command] + module_help(f"reach.{command.replace('-', '_')}")
 
 
 def options_in(text: str) -> set[str]:

@@ -31,6 +31,7 @@ PROGRAMS: dict[str, tuple[str, ...] | None] = {
     "reach-eval": ("--learner", "imle", "--inputs", "7", "--outputs", "3"),
     "reach-bench": None,
     "reach-log": None,
+    "reach-new-robot": None,
     "reach-spy": None,
     "reach-lcm-setup": None,
 }

@@ -17,9 +17,10 @@ BINARIES = Path(os.environ.get("REACH_BUILD_DIR", ROOT / "build")) / "bin"
 # to its net.core.rmem_max.
 LISTENER_URL = f"{DEFAULT_URL}&recv_buf_size=8388608"
 
+ETC = ROOT / "etc"
 OURS = "body"  # the learner that ships: a robot's configuration alone
 # Others, each in a file that the daemon reads after a robot's configuration.
-LEARNERS = {name: ROOT / f"etc/learner-{name}.yaml" for name in ("polynomial", "linear", "lwpr")}
+LEARNERS = {name: ETC / f"learner-{name}.yaml" for name in ("polynomial", "linear", "lwpr")}
 
 
 def start(
@@ -28,6 +29,7 @@ def start(
     *,
     seed: int,
     robot: str = "kobian",
+    etc: Path = ETC,
     configurations: Sequence[Path] = (),
     realtime: bool = False,
     settings: Mapping[str, object] = MappingProxyType({}),
@@ -35,13 +37,13 @@ def start(
     simrobot: tuple = (),
 ) -> None:
     """Starts recorder, reach-finder, reachd, simrobot, whose further options are `simrobot`, and
-    vision where the robot has eyes.
+    vision where the robot has eyes. The robot's files are in `etc`.
 
     reachd reads `configurations` over the robot's, and over them `settings` of single options;
     the log is of the channels that match."""
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
-    etc, url = ROOT / "etc", ["--url", DEFAULT_URL]
+    url = ["--url", DEFAULT_URL]
     files = (etc / f"{robot}.yaml", *configurations)
     daemon = [word for path in files for word in ("--config", path)]
     daemon += [word for item in settings.items() for word in ("--set", "{}={}".format(*item))]
@@ -70,12 +72,12 @@ def _wait_for(path: Path, processes: Processes) -> None:
         time.sleep(0.02)
 
 
-def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian") -> None:
+def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian", etc: Path = ETC) -> None:
     """Until the log is being written and the programs have answered on the bus."""
     hello = reach.hello_t
     bus.wait_for_role(hello.RECORDER, "the recorder")
     bus.wait_for_role(hello.FINDER, "reach-finder")
     bus.wait_for_role(hello.DAEMON, "reachd")
-    if (ROOT / f"etc/vision-{robot}.yaml").exists():
+    if (etc / f"vision-{robot}.yaml").exists():
         bus.wait_for_role(hello.VISION, "vision")
     bus.wait_for_role(hello.SIMULATOR, "simrobot")

@@ -258,4 +258,8 @@ void command_print_help(FILE *out)
     print_table(out, daemon_commands, "");
     fprintf(out, "commands to the simulator, for the experimenter:\n");
     print_table(out, simulator_commands, "sim ");
+    fprintf(out,
+            "commands that are programs of their own, and come first:\n"
+            "  new-robot URDF     write the configuration of a robot, try it in simulation, and "
+            "print what it reaches; new-robot --help tells more\n");
 }

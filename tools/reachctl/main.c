@@ -11,8 +11,11 @@
 #include "tools/reachctl/view/top.h"
 
 #include <errno.h>
+#include <libgen.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct arguments {
     struct command_settings settings;
@@ -173,6 +176,23 @@ static int carry_out(struct call *call, const struct command_settings *settings,
     return result;
 }
 
+/* A command that is a program of its own, beside this one or on PATH.
+ *   returns only where it cannot be started */
+static int hand_over(char **argv)
+{
+    static const char program[] = "reach-new-robot";
+    char self[PATH_MAX] = "", path[PATH_MAX + sizeof program];
+
+    if (readlink("/proc/self/exe", self, sizeof self - 1) > 0) {
+        snprintf(path, sizeof path, "%s/%s", dirname(self), program);
+        execv(path, argv + 1);
+    }
+    execvp(program, argv + 1);
+    fprintf(stderr, "reachctl: %s: %s; in the source tree ./run new-robot does it\n", program,
+            strerror(errno));
+    return EXIT_FAILURE;
+}
+
 int main(int argc, char **argv)
 {
     struct arguments arguments = {0};
@@ -181,6 +201,8 @@ int main(int argc, char **argv)
     char error[512] = "the bus failed";
     int status;
 
+    if (argc > 1 && strcmp(argv[1], "new-robot") == 0)
+        return hand_over(argv);
     command_defaults(settings);
     status = command_line_parse(&line, argc, argv, &arguments);
     if (status >= 0)

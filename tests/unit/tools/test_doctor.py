@@ -11,7 +11,7 @@ from pathlib import Path
 import lcm
 from background import Background
 from reach.bus import DEFAULT_URL
-from reach.messages import ROOT, reach
+from reach.messages import ROOT, bot_core, reach
 
 BINARIES = Path(os.environ["REACH_BUILD_DIR"]) / "bin"
 NETNS = ROOT / "tools/netns.sh"
@@ -175,6 +175,30 @@ class Bus(Case):
             self.assert_verdict(examine()[0], "robot's clock", "ok")
         with Company(self.say_state(-5, 1)):  # lockstep has a time of its own
             self.assertNotIn("robot's clock", examine()[0])
+
+    def test_a_fault_and_a_refused_joint_are_named(self):
+        status, names = reach.status_t(), bot_core.joint_state_t()
+        status.state, status.fault, status.fault_joint = status.FAULT, status.FAULT_STILL, 2
+        status.refused_joint, status.refused_value = 1, 2.5
+        names.joint_name = ["waist \x1b[2J", "elbow"]
+        names.num_joints = len(names.joint_name)
+        names.joint_position = names.joint_velocity = names.joint_effort = [0.0, 0.0]
+
+        def say(bus):
+            status.refused_state += 1
+            status.refused[0][status.VALUE] += 1
+            bus.publish("REACH_STATUS", status.encode())
+            bus.publish("JOINT_STATE", names.encode())
+            for cut in range(len(names.encode())):  # lengths that lie
+                bus.publish("JOINT_STATE", names.encode()[:cut])
+
+        with Company(say):
+            checks, code = examine()
+        self.assertEqual(code, 1)
+        self.assert_finding(checks, "fault", r"does not move: joint 2 .*\(joint 2 is elbow\)",
+                            "too weak .*reset-fault")  # fmt: skip
+        self.assert_finding(checks, "refused messages", r"joint 1 is waist \\x1b\[2J\)",
+                            "arm.min, arm.max")  # fmt: skip
 
 
 if __name__ == "__main__":

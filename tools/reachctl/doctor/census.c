@@ -1,9 +1,12 @@
 #include "tools/reachctl/doctor/census.h"
 
+#include "common/base/big_endian.h"
 #include "common/bus/refusals_text.h"
+#include "common/bus/status_words.h"
 #include "common/program/printable.h"
 
 #include <arpa/inet.h>
+#include <bot_core_joint_state_t.h>
 #include <math.h>
 #include <reach_config_t.h>
 #include <reach_end_effector_t.h>
@@ -89,6 +92,28 @@ static void take_status(struct census *census, const struct packet *packet)
     census->status = status;
 }
 
+/* What the robot calls its joints: the strings that follow time and count in a joint_state_t, by
+ * hand, for LCM's own decoder trusts their lengths. */
+static void take_names(struct census *census, const struct packet *packet)
+{
+    enum { COUNT_AT = 16, NAMES_AT = COUNT_AT + 2, LENGTH = 4 };
+    const unsigned char *at = packet->payload + NAMES_AT;
+    const unsigned char *end = packet->payload + packet->payload_size;
+
+    if (packet->payload_size < NAMES_AT ||
+        packet_fingerprint(packet) != __bot_core_joint_state_t_get_hash())
+        return;
+    int n = (int)big_endian(packet->payload + COUNT_AT, 2);
+    for (int i = 0; i < n && i < CENSUS_JOINTS && end - at >= LENGTH; i++) {
+        size_t length = (size_t)big_endian(at, LENGTH);
+        at += LENGTH;
+        if (length > (size_t)(end - at))
+            return;
+        printable((const char *)at, length, census->joint[i], sizeof census->joint[i]);
+        at += length;
+    }
+}
+
 void census_take(struct census *census, const struct packet *packet, const struct sender *from,
                  int64_t now)
 {
@@ -105,6 +130,8 @@ void census_take(struct census *census, const struct packet *packet, const struc
         take_clock(census, packet, now);
     else if (strcmp(packet->channel, "REACH_STATUS") == 0)
         take_status(census, packet);
+    else if (strcmp(packet->channel, "JOINT_STATE") == 0)
+        take_names(census, packet);
 }
 
 static void name_senders(const struct census *census, int index, char *text, size_t size)
@@ -163,21 +190,58 @@ static void report_role(const struct census *census, int role, const char *ours,
         findings_add(findings, VERDICT_SKIPPED, "version", "%s does not run", roles[role]);
 }
 
+/* " (NAME)", or "" where nobody told what joint `number` is called. */
+static const char *named(const struct census *census, int number, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (number >= 1 && number <= CENSUS_JOINTS && census->joint[number - 1][0])
+        snprintf(text, size, " (joint %d is %s)", number, census->joint[number - 1]);
+    return text;
+}
+
 /* What reachd refuses at present has to be mended; what it once refused is told. */
 static void report_refusals(const struct census *census, struct findings *findings)
 {
-    char now[200], all[200];
+    const reach_status_t *status = &census->status;
+    char now[200], all[200], name[96];
 
-    if (!census->has_status)
-        return;
-    refusals_text(&census->status, &census->first_status, now, sizeof now);
-    refusals_text(&census->status, NULL, all, sizeof all);
-    if (now[0]) {
-        findings_add(findings, VERDICT_FINDING, "refused messages", "just now: %s", now);
-        findings_remedy(findings, "journalctl -u reachd names them; find who sends them");
-    } else
+    refusals_text(status, &census->first_status, now, sizeof now);
+    refusals_text(status, NULL, all, sizeof all);
+    if (!now[0]) {
         findings_add(findings, VERDICT_OK, "refused messages", "%s%s",
                      all[0] ? "none now; since reachd's start: " : "none", all);
+        return;
+    }
+    findings_add(findings, VERDICT_FINDING, "refused messages", "just now: %s%s", now,
+                 named(census, status->refused_joint, name, sizeof name));
+    if (status->refused_state != census->first_status.refused_state && status->refused_joint > 0)
+        findings_remedy(findings, "arm.min, arm.max (head.min, head.max) of reachd's configuration "
+                                  "must hold the robot as it stands; or bring it within them "
+                                  "(reachctl sim reset)");
+    else
+        findings_remedy(findings, "journalctl -u reachd names them; find who sends them");
+}
+
+/* Why reachd does nothing, if it is in its fault state. */
+static void report_fault(const struct census *census, struct findings *findings)
+{
+    const reach_status_t *status = &census->status;
+    char fault[128], name[96];
+
+    if (status->state != REACH_STATUS_T_FAULT) {
+        findings_add(findings, VERDICT_OK, "fault", "reachd is in none");
+        return;
+    }
+    status_fault_text(status, fault, sizeof fault);
+    findings_add(findings, VERDICT_FINDING, "fault", "%s%s", fault,
+                 named(census, status->fault_joint, name, sizeof name));
+    if (status->fault == REACH_STATUS_T_FAULT_STILL || status->fault == REACH_STATUS_T_FAULT_ASTRAY)
+        findings_remedy(findings,
+                        "look at its motor, brake and encoder, at what it touches, and whether it "
+                        "is too weak for the arm's weight (a simulated robot: reach-simrobot "
+                        "--check); then reachctl reset-fault");
+    else
+        findings_remedy(findings, "mend that, then reachctl reset-fault");
 }
 
 void census_report(const struct census *census, const char *ours, struct findings *findings)
@@ -191,7 +255,10 @@ void census_report(const struct census *census, const char *ours, struct finding
     for (int role = 0; role < N_ROLES; role++)
         if (roles[role])
             report_role(census, role, ours, findings);
-    report_refusals(census, findings);
+    if (census->has_status) {
+        report_refusals(census, findings);
+        report_fault(census, findings);
+    }
     if (!census->has_clock)
         return;
     if (fabs(census->clock_ahead) <= clock_tolerance) {

@@ -9,7 +9,7 @@
 #include <reach_hello_t.h>
 #include <reach_status_t.h>
 
-enum { CENSUS_CHANNELS = 12, CENSUS_SENDERS = 4, CENSUS_ANSWERS = 8 };
+enum { CENSUS_CHANNELS = 12, CENSUS_SENDERS = 4, CENSUS_ANSWERS = 8, CENSUS_JOINTS = 16 };
 
 struct sender {
     struct in_addr address;
@@ -29,6 +29,7 @@ struct census {
     bool has_clock;
     bool has_status;
     reach_status_t first_status, status; /* of reachd: the first and the newest heard */
+    char joint[CENSUS_JOINTS][64];       /* names, from JOINT_STATE, as far as they are told */
     double clock_ahead;                  /* of the robot's clock over ours, s; in real time */
 };
 
