@@ -31,13 +31,23 @@ static const struct learner_prediction *predict_at(struct tick *tick, const doub
     return &tick->pair_prediction;
 }
 
+/* Nothing of joints that may not be where they seem to be, nor of eyes that repeat themselves. */
+static bool is_learned(struct tick *tick, const struct pair *pair)
+{
+    if (!tick->behaviour.learn || tick->following.doubts)
+        return false;
+    if (health_look(&tick->health, pair->q, pair->x))
+        return true;
+    tick->frozen++;
+    return false;
+}
+
 void tick_take_pair(struct tick *tick, const struct pair *pair, struct tick_outputs *outputs)
 {
     struct estimate *estimate = &tick->estimate;
     const struct learner_prediction *prediction = predict_at(tick, pair->q);
     reach_sample_t *sample = &outputs->sample;
-    /* Nothing of joints that may not be where they seem to be. */
-    bool learns = tick->behaviour.learn && !tick->following.doubts;
+    bool learns = is_learned(tick, pair);
 
     memset(sample, 0, sizeof *sample);
     sample->utime = pair->utime;
@@ -143,6 +153,22 @@ static void report_model(const struct tick *tick, reach_status_t *status)
     status->dropped_samples = tick->queue.dropped;
 }
 
+/* A joint that stands still is no trouble: the robot moves one after the other by itself. */
+static void report_health(const struct tick *tick, reach_status_t *status)
+{
+    const struct learner_statistics statistics = learner_get_statistics(tick->learner);
+    const struct health *health = &tick->health;
+
+    status->frozen_samples = tick->frozen;
+    status->troubles = (int32_t)(health_judge(health, &statistics) & ~(1u << HEALTH_CONSTANT));
+    if (!(status->troubles & REACH_STATUS_T_FAR))
+        return;
+    int joint = health_farthest(health);
+    status->trouble_joint = joint + 1;
+    status->trouble_value = health->input[joint].farthest;
+    status->trouble_scales = health_scales(health, joint, status->trouble_value);
+}
+
 static void report_status(const struct tick *tick, int64_t now, reach_status_t *status)
 {
     memset(status, 0, sizeof *status);
@@ -167,7 +193,15 @@ static void report_status(const struct tick *tick, int64_t now, reach_status_t *
     status->gated = tick->safety.changed;
     report_behaviour(tick, status);
     report_model(tick, status);
+    report_health(tick, status);
 }
+
+_Static_assert(REACH_STATUS_T_MANY_FULL == 1 << HEALTH_FULL &&
+                   REACH_STATUS_T_MANY_OUTLIERS == 1 << HEALTH_OUTLIERS &&
+                   REACH_STATUS_T_FAR == 1 << HEALTH_FAR &&
+                   REACH_STATUS_T_STILL == 1 << HEALTH_FROZEN &&
+                   REACH_STATUS_T_EXPERTS == 1 << HEALTH_EXPERTS,
+               "status_t.troubles has a bit for each enum health_trouble");
 
 static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
                          reach_trace_t *trace)

@@ -35,15 +35,14 @@ const struct queued_sample *sample_queue_oldest(const struct sample_queue *queue
     return queue->count > 0 ? &queue->samples[queue->oldest] : NULL;
 }
 
-bool sample_queue_learn_one(struct sample_queue *queue, struct learner *learner)
+enum learner_update_result sample_queue_learn_one(struct sample_queue *queue,
+                                                  struct learner *learner)
 {
     const struct queued_sample *sample = sample_queue_oldest(queue);
+    enum learner_update_result result = learner_update(learner, sample->z, sample->x);
 
-    if (!sample)
-        return false;
-    learner_update(learner, sample->z, sample->x);
     queue->oldest = (queue->oldest + 1) % queue->capacity;
     queue->count--;
     queue->learned++;
-    return true;
+    return result;
 }

@@ -37,7 +37,8 @@ void sample_queue_add(struct sample_queue *queue, const double *z, int n_inputs,
 /* The sample that is next; NULL when none waits. */
 const struct queued_sample *sample_queue_oldest(const struct sample_queue *queue);
 
-/* Hands the oldest sample to the learner. Returns false when none waits. */
-bool sample_queue_learn_one(struct sample_queue *queue, struct learner *learner);
+/* Hands the oldest sample, of which there is one, to the learner. Returns what became of it. */
+enum learner_update_result sample_queue_learn_one(struct sample_queue *queue,
+                                                  struct learner *learner);
 
 #endif

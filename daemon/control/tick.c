@@ -47,6 +47,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     tick->learner = learner_create(&learner, arena, error, error_size);
     if (!tick->learner)
         return NULL;
+    health_init(&tick->health, &learner, HEALTH_WINDOW);
     plausible_init(&tick->plausible, config);
     following_init(&tick->following, config);
     history_init(&tick->history, config_joints(config));
@@ -79,7 +80,7 @@ bool tick_learn(struct tick *tick)
 
     if (!sample || !model->ops->note(model->context, sample->z, sample->x))
         return false;
-    sample_queue_learn_one(&tick->queue, tick->learner);
+    health_count(&tick->health, sample_queue_learn_one(&tick->queue, tick->learner));
     model->ops->learned(model->context, tick->learner);
     tick->learned_now++;
     return true;
@@ -102,6 +103,7 @@ static void sense(struct tick *tick)
         if (tick->sight.new_frame && !tick->config->space.fixates)
             anchor_to_measured(tick);
         estimate_choose(&tick->estimate, tick->learner, tick->q);
+        health_count_solutions(&tick->health, tick->estimate.prediction.n_solutions);
         context_follow(&tick->context, &tick->estimate);
     }
     sight_carry(&tick->sight, tick->q, estimate_jacobian(&tick->estimate));

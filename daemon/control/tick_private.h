@@ -17,6 +17,7 @@
 #include "daemon/control/senses/sight.h"
 #include "daemon/control/supervisor.h"
 #include "daemon/control/tick.h"
+#include "learner/health/health.h"
 
 struct tick {
     const struct config *config;
@@ -24,6 +25,7 @@ struct tick {
     struct model_port model;
     const struct behaviour_ops *const *behaviours;
     struct sample_queue queue;
+    struct health health; /* of the samples that are learned */
     struct plausible plausible;
     struct following following;
     struct history history;
@@ -53,6 +55,7 @@ struct tick {
     int64_t state_utime;  /* its time, us */
     double state_age;     /* since it came, s */
     int64_t sample_seq;
+    int64_t frozen; /* samples that were not learned, since what was seen stood still */
     struct refusals refusals;
     int64_t unanswered; /* state of lockstep that was refused in this tick, 0 = none */
 

@@ -3,6 +3,7 @@
 #include "common/bus/open.h"
 #include "common/bus/refusals_text.h"
 #include "common/bus/status_words.h"
+#include "common/bus/troubles_text.h"
 #include "common/program/log.h"
 
 #include <signal.h>
@@ -77,6 +78,18 @@ static void say_refusals(struct housekeeping *housekeeping)
     housekeeping->refused_said = now;
 }
 
+/* Each when it begins. */
+static void say_troubles(struct housekeeping *housekeeping)
+{
+    char text[300];
+
+    for (int kind = 0; kind < TROUBLES; kind++)
+        if (!(housekeeping->troubles & 1 << kind) &&
+            trouble_text(&housekeeping->status, kind, text, sizeof text))
+            log_warning("%s", text);
+    housekeeping->troubles = housekeeping->status.troubles;
+}
+
 static void tell_service_manager(struct housekeeping *housekeeping)
 {
     while (mailbox_take(daemon_bus_reports(housekeeping->bus), &housekeeping->status)) {
@@ -84,6 +97,7 @@ static void tell_service_manager(struct housekeeping *housekeeping)
         say_fault(housekeeping);
     }
     say_refusals(housekeeping);
+    say_troubles(housekeeping);
     service_manager_tell(&housekeeping->service_manager, bus_monotonic_us(),
                          loop_ticks(housekeeping->loop),
                          loop_waits(housekeeping->loop) != LOOP_RUNS,

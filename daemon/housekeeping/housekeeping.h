@@ -22,6 +22,7 @@ struct housekeeping {
     int8_t fault;           /* the newest that the log was told of, status_t.FAULT_* */
     reach_status_t refused; /* at which the log was last told what was refused, */
     int64_t refused_said;   /* and when, monotonic us; 0 = never */
+    int32_t troubles;       /* of the status before */
     int64_t waiting_since;  /* for a marker that is due, monotonic us; 0 = not waiting */
     int64_t said;           /* when the log was last told of it, monotonic us */
     int64_t announced;      /* when the bus was last told the configuration, monotonic us */

@@ -176,6 +176,21 @@ static bool is_far(const struct health *health)
     return false;
 }
 
+int health_farthest(const struct health *health)
+{
+    int worst = 0;
+    double most = 0;
+
+    for (int i = 0; i < health->n_inputs; i++) {
+        double scales = health_scales(health, i, health->input[i].farthest);
+        if (health->input[i].far > 0 && scales > most) {
+            most = scales;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
 bool health_lacks_samples(const struct health *health, const struct learner_statistics *statistics)
 {
     return statistics->samples < (uint64_t)health->least_samples * (uint64_t)statistics->experts;

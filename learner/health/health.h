@@ -30,6 +30,9 @@ enum health_trouble {
 /* The Gaussian under the polynomials is 3e-4 there: a sample further off leaves hardly a trace. */
 #define HEALTH_MOST_SCALES 4.0
 
+/* Newest samples that a program which runs for long judges by. */
+enum { HEALTH_WINDOW = 2000 };
+
 /* One input, over all samples. */
 struct health_input {
     double low, high;
@@ -81,6 +84,9 @@ void health_count_solutions(struct health *health, int n_solutions);
 
 /* How many scales an input is from its reference; 0 where the learner has no scale. */
 double health_scales(const struct health *health, int input, double value);
+
+/* The input that was most scales from its reference: of HEALTH_FAR, else 0. */
+int health_farthest(const struct health *health);
 
 /* The troubles now, bit 1 << enum health_trouble each. `experts` and `capacity` are read. */
 unsigned health_judge(const struct health *health, const struct learner_statistics *statistics);

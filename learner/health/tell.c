@@ -58,24 +58,9 @@ static bool input_is_far(const struct health *health, int input)
     return health->input[input].far > 0;
 }
 
-static int farthest_input(const struct health *health)
-{
-    int worst = 0;
-    double most = 0;
-
-    for (int i = 0; i < health->n_inputs; i++) {
-        double scales = health_scales(health, i, health->input[i].farthest);
-        if (health->input[i].far > 0 && scales > most) {
-            most = scales;
-            worst = i;
-        }
-    }
-    return worst;
-}
-
 static void tell_far(struct line *line, const struct health *health)
 {
-    const int worst = farthest_input(health);
+    const int worst = health_farthest(health);
     const struct health_input *input = &health->input[worst];
 
     put_input(line, health, worst);

@@ -61,7 +61,7 @@ struct desk *desk_create(const struct learner_config *config, struct learner *le
     desk->learner = learner;
     desk->store = store;
     desk->keeps = keeps;
-    health_init(&desk->health, config, DESK_HEALTH_WINDOW);
+    health_init(&desk->health, config, HEALTH_WINDOW);
     desk->clients = clients_create(arena);
     desk->waiting = mailbox_create(arena, sizeof(struct waiting), DESK_WAITING);
     return desk->clients && desk->waiting ? desk : NULL;

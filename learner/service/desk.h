@@ -17,8 +17,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define DESK_WAITING 1024       /* answers that may wait for the disk; a power of two */
-#define DESK_HEALTH_WINDOW 2000 /* newest samples that are judged */
+#define DESK_WAITING 1024 /* answers that may wait for the disk; a power of two */
 
 struct desk;
 

@@ -3,6 +3,7 @@
 #include "common/base/big_endian.h"
 #include "common/bus/refusals_text.h"
 #include "common/bus/status_words.h"
+#include "common/bus/troubles_text.h"
 #include "common/program/printable.h"
 
 #include <arpa/inet.h>
@@ -244,6 +245,16 @@ static void report_fault(const struct census *census, struct findings *findings)
         findings_remedy(findings, "mend that, then reachctl reset-fault");
 }
 
+/* Each line ends with what to do. */
+static void report_troubles(const struct census *census, struct findings *findings)
+{
+    char text[300];
+
+    for (int kind = 0; kind < TROUBLES; kind++)
+        if (trouble_text(&census->status, kind, text, sizeof text))
+            findings_add(findings, VERDICT_FINDING, "samples", "%s", text);
+}
+
 void census_report(const struct census *census, const char *ours, struct findings *findings)
 {
     int before = findings->n;
@@ -258,6 +269,7 @@ void census_report(const struct census *census, const char *ours, struct finding
     if (census->has_status) {
         report_refusals(census, findings);
         report_fault(census, findings);
+        report_troubles(census, findings);
     }
     if (!census->has_clock)
         return;

@@ -2,6 +2,7 @@
 
 #include "common/bus/refusals_text.h"
 #include "common/bus/status_words.h"
+#include "common/bus/troubles_text.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -113,6 +114,9 @@ void show_text(const reach_status_t *status, FILE *out)
     refusals_text(status, NULL, refused, sizeof refused);
     if (refused[0])
         fprintf(out, "refused    %s\n", refused);
+    for (int kind = 0; kind < TROUBLES; kind++)
+        if (trouble_text(status, kind, refused, sizeof refused))
+            fprintf(out, "trouble    %s\n", refused);
     fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
             (long long)status->request_seq, result_word(status));
 }
@@ -171,6 +175,11 @@ static const struct field {
     FIELD(queue, FIELD_INT32),
     FIELD(dropped_samples, FIELD_INT64),
     FIELD(bad_inputs, FIELD_INT64),
+    FIELD(frozen_samples, FIELD_INT64),
+    FIELD(troubles, FIELD_INT32),
+    FIELD(trouble_joint, FIELD_INT32),
+    FIELD(trouble_value, FIELD_DOUBLE),
+    FIELD(trouble_scales, FIELD_DOUBLE),
     FIELD(refused_state, FIELD_INT64),
     FIELD(refused_joint, FIELD_INT32),
     FIELD(refused_value, FIELD_DOUBLE),
