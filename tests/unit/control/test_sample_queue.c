@@ -21,7 +21,7 @@ START_TEST(a_full_queue_drops_and_counts)
     ck_assert_int_eq(queue.dropped, 2);
     ck_assert_double_eq(queue.samples[queue.oldest].z[0], 0);
     for (int i = 0; i < 3; i++)
-        ck_assert_int_le(sample_queue_learn_one(&queue, learner), LEARNER_BORN);
+        ck_assert_int_le(sample_queue_learn_one(&queue, learner), LEARNER_OUTLIER);
     ck_assert_ptr_null(sample_queue_oldest(&queue));
     ck_assert_int_eq(queue.learned, 3);
     arena_destroy(arena);
