@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "common/bus/open.h"
+#include "common/logs/event_log.h"
 #include "common/program/log.h"
 #include "common/program/notify.h"
 #include "vision/answers/observer.h"
@@ -157,8 +158,13 @@ static int serve(source *pairs, lcm_t *lcm, bool own_pace, const statistics &cou
 
 static int write_stats(const char *path, const statistics &counts)
 {
-    FILE *out = fopen(path, "w");
+    FILE *out;
 
+    if (event_log_begins(path)) {
+        log_error("%s: is a log, and is not overwritten", path);
+        return 1;
+    }
+    out = fopen(path, "w");
     if (out) {
         statistics_json(counts, out);
         if (fclose(out) == 0)

@@ -273,6 +273,23 @@ struct event_log *event_log_open(const char *path, size_t keep, char *error, siz
     return NULL;
 }
 
+bool event_log_begins(const char *path)
+{
+    unsigned char found[MARK];
+    struct stat status;
+    int file;
+    bool is_log;
+
+    /* What is no file, such as a pipe, would be waited for. */
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+        return false;
+    file = open(path, O_RDONLY | O_CLOEXEC);
+    is_log = file >= 0 && read(file, found, MARK) == MARK && memcmp(found, mark, MARK) == 0;
+    if (file >= 0)
+        close(file);
+    return is_log;
+}
+
 void event_log_close(struct event_log *log)
 {
     if (!log)

@@ -8,8 +8,13 @@
 #ifndef REACH_COMMON_LOGS_EVENT_LOG_H
 #define REACH_COMMON_LOGS_EVENT_LOG_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum {
     EVENT_LOG_HEADER = 28,          /* bytes: mark 4, number 8, time 8, two lengths of 4 */
@@ -31,6 +36,10 @@ struct event {
     int64_t skipped;           /* bytes directly before `position` that are no event */
 };
 
+/* Whether the file is there and begins as a log does. Who writes a file of another kind asks before
+ * it replaces one: a log is often all that is left of a run. */
+bool event_log_begins(const char *path);
+
 /* Opens a file, or for "-" standard input; what can be read only once, such as a pipe, is copied to
  * an unnamed file first. Messages of more than `keep` bytes are not read. What is written to the
  * file later is not seen.
@@ -50,4 +59,7 @@ int event_log_next(struct event_log *log, struct event *event, char *error, size
 const unsigned char *event_log_bytes(struct event_log *log, const struct event *event,
                                      size_t *size);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -1,5 +1,7 @@
 #include "tools/measure/output_file.h"
 
+#include "common/logs/event_log.h"
+
 #include <errno.h>
 #include <libgen.h>
 #include <string.h>
@@ -21,6 +23,8 @@ int output_check(const char *path, char *error, size_t error_size)
         return fail(path, "the path is too long", error, error_size);
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return fail(path, "is there, and is not a file", error, error_size);
+    if (event_log_begins(path))
+        return fail(path, "is a log, and is not overwritten", error, error_size);
     memcpy(copy, path, strlen(path) + 1);
     if (access(dirname(copy), W_OK) != 0)
         return fail(path, strerror(errno), error, error_size);

@@ -3,14 +3,18 @@
 #include "common/bus/open.h"
 #include "common/bus/status_words.h"
 #include "learner/bus/body_message.h"
+#include "tools/reachctl/outcome.h"
 #include "tools/reachctl/view/show.h"
 
 #include <lcm/lcm.h>
+#include <reach_config_t.h>
 #include <reach_sim_truth_t.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static const int64_t resend_us = 500000;
+static const double config_seconds = 1.5;
 
 struct client {
     lcm_t *lcm;
@@ -19,6 +23,8 @@ struct client {
     int64_t simulator_done; /* newest sim_request_t.seq carried out */
     bool has_body;
     reach_body_t body; /* newest that can be used */
+    bool has_config;
+    reach_config_t config;
 };
 
 static void on_status(const lcm_recv_buf_t *message, const char *channel,
@@ -51,6 +57,17 @@ static void on_body(const lcm_recv_buf_t *message, const char *channel, const re
     client->has_body = true;
 }
 
+static void on_config(const lcm_recv_buf_t *message, const char *channel,
+                      const reach_config_t *config, void *user)
+{
+    struct client *client = (struct client *)user;
+
+    (void)message;
+    (void)channel;
+    client->config = *config;
+    client->has_config = true;
+}
+
 struct client *client_create(const char *url, char *error, size_t error_size)
 {
     lcm_t *lcm = bus_open(url, error, error_size);
@@ -68,6 +85,7 @@ struct client *client_create(const char *url, char *error, size_t error_size)
     reach_status_t_subscribe(lcm, "REACH_STATUS", on_status, client);
     reach_sim_truth_t_subscribe(lcm, "SIM_TRUTH", on_truth, client);
     reach_body_t_subscribe(lcm, "REACH_BODY_IN_USE", on_body, client);
+    reach_config_t_subscribe(lcm, "REACH_CONFIG", on_config, client);
     return client;
 }
 
@@ -142,6 +160,27 @@ static bool is_overtaken(const struct client *client, const reach_request_t *req
     return client->status.request_seq > request->seq;
 }
 
+/* Which file a save or load was about: the daemon tells its configuration once a second. */
+static void name_model(struct client *client, int32_t number, char *error, size_t error_size)
+{
+    static const char key[] = "model.directory=";
+    int64_t deadline = deadline_after(config_seconds);
+    char text[sizeof client->config.text + 1] = "";
+    const char *found;
+    size_t used = strlen(error);
+
+    while (!client->has_config)
+        if (!handle_before(client, deadline))
+            return;
+    memcpy(text, client->config.text, sizeof client->config.text);
+    found = strstr(text, key);
+    if (found && (found == text || found[-1] == '\n')) {
+        found += sizeof key - 1;
+        snprintf(error + used, error_size - used, ": %.*s/model-%d.imle", (int)strcspn(found, "\n"),
+                 found, number);
+    }
+}
+
 /* Sent again now and then, which changes nothing: the daemon may just be starting. */
 int client_ask_daemon(struct client *client, reach_request_t *request, double timeout, char *error,
                       size_t error_size)
@@ -164,6 +203,8 @@ int client_ask_daemon(struct client *client, reach_request_t *request, double ti
     if (result_of(status, request) == REACH_STATUS_T_ACCEPTED)
         return 0;
     snprintf(error, error_size, "reachd: %s", status_result_word(result_of(status, request)));
+    if (request->kind == REACH_REQUEST_T_SAVE || request->kind == REACH_REQUEST_T_LOAD)
+        name_model(client, request->count, error, error_size);
     return -1;
 }
 
@@ -217,7 +258,9 @@ int client_follow(struct client *client, const reach_request_t *request, double 
                   char *error, size_t error_size)
 {
     reach_status_t at_work = client->status;
+    struct outcome outcome = {0};
 
+    outcome_take(&outcome, &at_work);
     for (;;) {
         const reach_status_t *status = client_status(client, timeout);
         if (!status)
@@ -232,9 +275,28 @@ int client_follow(struct client *client, const reach_request_t *request, double 
         }
         if (status->behaviour == REACH_STATUS_T_NONE) {
             show_end(&at_work, status);
-            return 0;
+            return request->kind == REACH_REQUEST_T_REACH
+                       ? outcome_end(&outcome, &at_work, error, error_size)
+                       : 0;
         }
+        outcome_take(&outcome, status);
         show_progress(status);
         at_work = *status;
     }
+}
+
+int client_await_recovery(struct client *client, double timeout, char *error, size_t error_size)
+{
+    int64_t deadline = deadline_after(timeout);
+
+    while (client->status.state == REACH_STATUS_T_FAULT) {
+        if (bus_monotonic_us() >= deadline) {
+            snprintf(error, error_size, "reachd is still in its fault state: %s",
+                     status_fault_word(client->status.fault));
+            return -1;
+        }
+        if (!client_status(client, timeout))
+            return no_daemon(timeout, error, error_size);
+    }
+    return 0;
 }

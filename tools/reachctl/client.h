@@ -39,9 +39,14 @@ int client_ask_body(struct client *client, const reach_request_t *request, doubl
 int client_tell_simulator(struct client *client, reach_sim_request_t *request);
 
 /* Follows the accepted `request` until its behaviour ends, with a progress line on stderr. Fails
- * when the daemon is silent for `timeout` seconds or leaves the behaviour for a fault.
+ * when the daemon is silent for `timeout` seconds, leaves the behaviour for a fault, or does not
+ * reach a target.
  *   returns 0, or -1 with one line in `error` */
 int client_follow(struct client *client, const reach_request_t *request, double timeout,
                   char *error, size_t error_size);
+
+/* Until the daemon has left its fault state.
+ *   returns 0, or -1 with one line in `error` when that takes longer than `timeout` seconds */
+int client_await_recovery(struct client *client, double timeout, char *error, size_t error_size);
 
 #endif

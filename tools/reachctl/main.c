@@ -1,11 +1,13 @@
 /* reachctl: talks to the daemon, and to the simulator for the experimenter. */
 #include "common/bus/open.h"
+#include "common/logs/event_log.h"
 #include "common/options/command_line.h"
 #include "tools/reachctl/body/show.h"
 #include "tools/reachctl/client.h"
 #include "tools/reachctl/command.h"
 #include "tools/reachctl/doctor/doctor.h"
 #include "tools/reachctl/motors/hearing.h"
+#include "tools/reachctl/outcome.h"
 #include "tools/reachctl/view/echo.h"
 #include "tools/reachctl/view/show.h"
 #include "tools/reachctl/view/top.h"
@@ -79,8 +81,13 @@ static int show_status(struct client *client, const struct command_settings *set
 
 static int write_urdf(const struct body *body, const char *path, char *error, size_t error_size)
 {
-    FILE *file = fopen(path, "w");
+    FILE *file;
 
+    if (event_log_begins(path)) {
+        snprintf(error, error_size, "%s: is a log, and is not overwritten", path);
+        return -1;
+    }
+    file = fopen(path, "w");
     if (file)
         body_write_urdf(body, file);
     if (!file || ferror(file) || fclose(file) != 0) {
@@ -129,6 +136,30 @@ static int check_motors(struct client *client, reach_request_t *request, double 
     return -1;
 }
 
+/* Somebody who means pixels and says metres is told before the arm stretches. */
+static void question(struct client *client, const reach_request_t *request, double timeout)
+{
+    const reach_status_t *status = client_status(client, timeout);
+    char why[200];
+
+    if (status && outcome_doubtful(status, request, why, sizeof why))
+        fprintf(stderr, "reachctl: %s; the robot tries it all the same\n", why);
+}
+
+static int ask_daemon(struct client *client, struct call *call,
+                      const struct command_settings *settings, char *error, size_t error_size)
+{
+    if (call->request.kind == REACH_REQUEST_T_REACH)
+        question(client, &call->request, settings->timeout);
+    if (client_ask_daemon(client, &call->request, settings->timeout, error, error_size))
+        return -1;
+    if (call->request.kind == REACH_REQUEST_T_RESET_FAULT)
+        return client_await_recovery(client, settings->timeout, error, error_size);
+    return settings->wait
+               ? client_follow(client, &call->request, settings->timeout, error, error_size)
+               : 0;
+}
+
 /* What needs somebody who answers. */
 static int ask(struct client *client, struct call *call, const struct command_settings *settings,
                char *error, size_t error_size)
@@ -139,11 +170,7 @@ static int ask(struct client *client, struct call *call, const struct command_se
     case CALL_BODY:
         return show_body_in_use(client, call, settings, error, error_size);
     case CALL_DAEMON:
-        if (client_ask_daemon(client, &call->request, settings->timeout, error, error_size))
-            return -1;
-        return settings->wait
-                   ? client_follow(client, &call->request, settings->timeout, error, error_size)
-                   : 0;
+        return ask_daemon(client, call, settings, error, error_size);
     case CALL_MOTORS:
         return check_motors(client, &call->request, settings->timeout, error, error_size);
     case CALL_SIMULATOR:

@@ -17,10 +17,15 @@ class Scripted(Background):
     """Answers requests the way daemon and simulator do; a behaviour takes three statuses. The first
     `deaf_to` messages with requests are lost."""
 
-    def __init__(self, result: int = reach.status_t.ACCEPTED, *, deaf_to: int = 0):
+    def __init__(self, result: int = reach.status_t.ACCEPTED, *, deaf_to: int = 0,
+                 distances: tuple = (9.0, 1.25), space: int = reach.status_t.VISUAL,
+                 faults: int = 0, also: dict | None = None):  # fmt: skip
         super().__init__()
         self.result = result
         self._deaf_to = deaf_to
+        self._also = also or {}  # said with each status
+        self._distances, self._space = distances, space
+        self._faults = faults  # statuses that still tell of a fault after a request
         self.requests: list[reach.request_t] = []
         self.sim_requests: list[reach.sim_request_t] = []
         self._busy = 0
@@ -51,15 +56,20 @@ class Scripted(Background):
         status = reach.status_t()
         status.utime = int(time.time() * 1e6)
         status.state, status.n_outputs, status.experts = reach.status_t.IDLE, 3, 7
-        status.staleness = float("inf")
+        status.staleness, status.space = float("inf"), self._space
+        if self._faults > 0:
+            status.state, status.fault = reach.status_t.FAULT, reach.status_t.FAULT_EMERGENCY
+            self._faults -= 1 if self.requests else 0
         status.request_result = self.result
         if self.requests:
             status.request_seq = self.requests[-1].seq
         self._busy = max(0, self._busy - 1)
         if self._busy:
             status.behaviour = reach.status_t.REACH
-            status.error = 1.25 if self._busy == 1 else 9.0
+            status.error = self._distances[-1] if self._busy == 1 else self._distances[0]
         self._lcm.publish("REACH_STATUS", status.encode())
+        for channel, data in self._also.items():
+            self._lcm.publish(channel, data)
 
 
 def reachctl(*words: str) -> subprocess.CompletedProcess:

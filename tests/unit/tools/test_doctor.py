@@ -4,6 +4,7 @@ mends the network. Each case has a network namespace of its own."""
 import json
 import os
 import subprocess
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -101,6 +102,29 @@ class Limits(Case):
         self.assertEqual(code, 1)
         self.assert_finding(checks, "real time", "not permitted", r"rtprio \d+")
         self.assert_finding(checks, "memory lock", "cannot be locked", r"memlock \d+")
+
+    def test_inside_a_user_namespace_the_user_outside_is_named(self):
+        somebody = ["setpriv", "--reuid=12345", "--clear-groups"]
+        if os.geteuid() != 0:
+            self.skipTest("only root can become somebody else")
+        checks, _ = examine(*somebody, "unshare", "--user", "--map-root-user", "--net")
+        remedies = [entry["remedy"] for entry in checks["real time"] + checks["memory lock"]]
+        self.assertTrue(all("':12345 - " in remedy for remedy in remedies), remedies)
+
+    def test_a_renderer_that_warns_first_is_none_the_less(self):
+        """What it says at first is not what draws, and it is not ended while it speaks."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (
+                ("reachctl", None),
+                ("reach-simrobot", "#!/bin/sh\necho MESA: warning: odd >&2\n"
+                 "seq 200000 || exit 3\necho 'llvmpipe of a test'\n"),
+            ):  # fmt: skip
+                path = Path(folder) / name
+                path.write_bytes(text.encode() if text else (BINARIES / name).read_bytes())
+                path.chmod(0o755)
+            result = run(NETNS, Path(folder) / "reachctl", "doctor", "--json")
+        found = {entry["check"]: entry for entry in json.loads(result.stdout)}["EGL renderer"]
+        self.assertEqual((found["verdict"], found["text"]), ("ok", "llvmpipe of a test"))
 
     def test_no_graphics(self):
         checks, code = examine(NETNS, __EGL_VENDOR_LIBRARY_FILENAMES="/dev/null")

@@ -27,6 +27,7 @@ class Reachctl(unittest.TestCase):
         self.assertIn("seconds", self.refused("--timeout", "-1", "status"))
         self.assertIn("unrecognized option", self.refused("--fly"))
         self.assertIn("a command is wanted", self.refused())
+        self.assertIn("unknown command '-'", self.refused("-"))
 
     def test_help_and_version(self):
         self.assertIn("sim run-until T", reachctl("--help").stdout)
@@ -86,6 +87,39 @@ class Reachctl(unittest.TestCase):
         self.assertLess(time.monotonic() - start, 5)
         # What it came to: the daemon's own error is 0 again when there is no target any more.
         self.assertEqual(result.stdout, "reach: 0 of 0, 0 given up; 7 experts; error 1.2 px\n")
+
+    def test_reaching_nowhere_is_no_success(self):
+        with Scripted(distances=(700.0, 1559.0)):
+            result = reachctl("reach", "10", "10", "0", "--wait")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("not reached; the last of them by 1559.0 px, 700.0 px where", result.stderr)
+
+    def test_a_target_in_the_wrong_unit_is_questioned(self):
+        with Scripted(space=reach.status_t.CARTESIAN, distances=(0.01, 0.001)):
+            result = reachctl("reach", "-50", "20", "3", "--wait")
+            self.assertIn("x, y, z in m, not px", result.stderr)
+            self.assertEqual(reachctl("reach", "0.3", "0.1", "0.3", "--wait").stderr, "")
+        with Scripted():
+            self.assertIn("outside", reachctl("reach", "400", "0", "0", "--wait").stderr)
+
+    def test_reset_fault_waits_until_the_fault_is_left(self):
+        with Scripted(faults=20):
+            start = time.monotonic()
+            self.assertEqual(reachctl("reset-fault").returncode, 0)
+            self.assertGreater(time.monotonic() - start, 0.2)
+        with Scripted(faults=10**6):
+            result = reachctl("reset-fault", "--timeout", "0.5")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("still in its fault state", result.stderr)
+
+    def test_a_model_that_is_missing_is_named(self):
+        config = reach.config_t()
+        text = b"period=0.02\nmodel.directory=/var/models\nmodel.kept=3\n"
+        config.text = list(text.ljust(len(config.text), b"\0"))
+        with Scripted(reach.status_t.FAILED, also={"REACH_CONFIG": config.encode()}):
+            result = reachctl("load", "7")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("/var/models/model-7.imle", result.stderr)
 
     def test_a_lost_request_is_sent_again(self):
         with Scripted(deaf_to=1) as daemon:

@@ -52,13 +52,32 @@ static int lock_memory(void)
                : 0;
 }
 
+/* The user as the machine knows him: inside a user namespace, root is often somebody else. */
+static uid_t user_outside(void)
+{
+    unsigned inside, outside, count, me = getuid();
+    FILE *map = fopen("/proc/self/uid_map", "r");
+
+    while (map && fscanf(map, "%u %u %u", &inside, &outside, &count) == 3)
+        if (me >= inside && me - inside < count) {
+            me = outside + (me - inside);
+            break;
+        }
+    if (map)
+        fclose(map);
+    return me;
+}
+
 static void grant(struct findings *findings, const char *limit, int value)
 {
-    const struct passwd *user = getpwuid(getuid());
+    uid_t uid = user_outside();
+    const struct passwd *user = getpwuid(uid);
+    char number[16]; /* limits.conf takes a number behind a colon in a name's place */
 
+    snprintf(number, sizeof number, ":%u", (unsigned)uid);
     findings_remedy(findings,
                     "echo '%s - %s %d' >> /etc/security/limits.d/reach.conf as root, log in again",
-                    user ? user->pw_name : "*", limit, value);
+                    user ? user->pw_name : number, limit, value);
 }
 
 static void check_real_time(struct findings *findings)
@@ -101,20 +120,24 @@ static bool find_simulator(char *path, size_t size)
     return snprintf(path, size, "%s/reach-simrobot", self) < (int)size && access(path, X_OK) == 0;
 }
 
-/* What the program writes first, on stdout or stderr; returns its exit code, -1 when it failed. */
-static int first_line(const char *program, const char *option, char *line, size_t size)
+/* What the program says at last, on stdout or else on stderr; returns its exit code, -1 when it
+ * failed. All is read: who is not listened to would be ended by SIGPIPE. Mesa's warnings, on
+ * stderr, are no result. */
+static int last_line(const char *program, const char *option, char *line, size_t size)
 {
-    char command[PATH_MAX + 64];
+    char command[PATH_MAX + 64], read[256];
     FILE *output;
     int status;
 
-    snprintf(command, sizeof command, "'%s' %s 2>&1", program, option);
+    snprintf(command, sizeof command, "'%s' %s 2>/dev/null", program, option);
     output = popen(command, "r"); // NOLINT(cert-env33-c): the path is our own
     line[0] = '\0';
     if (!output)
         return -1;
-    if (fgets(line, (int)size, output))
-        line[strcspn(line, "\n")] = '\0';
+    while (fgets(read, sizeof read, output)) {
+        read[strcspn(read, "\n")] = '\0';
+        snprintf(line, size, "%s", read);
+    }
     status = pclose(output);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -127,10 +150,11 @@ static void check_renderer(struct findings *findings)
     if (!find_simulator(path, sizeof path)) {
         findings_add(findings, VERDICT_SKIPPED, "EGL renderer",
                      "no reach-simrobot is installed here");
-    } else if (first_line(path, "--renderer", line, sizeof line) == 0) {
+    } else if (last_line(path, "--renderer", line, sizeof line) == 0) {
         findings_add(findings, VERDICT_OK, "EGL renderer", "%s", line);
     } else {
-        findings_add(findings, VERDICT_FINDING, "EGL renderer", "%s", line);
+        findings_add(findings, VERDICT_FINDING, "EGL renderer", "%s",
+                     *line ? line : "reach-simrobot --renderer ended without a word");
         findings_remedy(findings, "apt-get install libgl1-mesa-dri libegl1");
     }
 }

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <time.h>
 #include <unistd.h>
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -247,13 +248,26 @@ void show_json(const reach_status_t *status, FILE *out)
     fputs("}\n", out);
 }
 
+/* Between lines where stderr is no terminal. */
+static const time_t progress_seconds = 10;
+
 void show_progress(const reach_status_t *status)
 {
-    if (!isatty(STDERR_FILENO))
+    static time_t said;
+    bool live = isatty(STDERR_FILENO);
+    time_t now = time(NULL);
+
+    if (!said)
+        said = now;
+    if (!live && now - said < progress_seconds)
         return;
-    fprintf(stderr, "\r%s %s: %d of %d, %d given up, %d experts, error %.1f %s\033[K",
+    said = now;
+    fprintf(stderr, "%s%s %s: %d of %d, %d given up, %d experts", live ? "\r" : "",
             show_behaviour(status), show_phase(status), status->progress, status->progress_total,
-            status->skipped, status->experts, show_error(status), show_error_unit(status));
+            status->skipped, status->experts);
+    if (status->error > 0)
+        fprintf(stderr, ", error %.1f %s", show_error(status), show_error_unit(status));
+    fputs(live ? "\033[K" : "\n", stderr);
 }
 
 void show_end(const reach_status_t *at_work, const reach_status_t *after)
