@@ -27,6 +27,8 @@ const argument_row rows[] = {
                   "SIM_REQUEST and SIM_TRUTH on a bus of their own"),
     ARGUMENT_OFF("no-truth", CommandLine, send_truth, "never send SIM_TRUTH"),
     ARGUMENT_OFF("no-eyes", CommandLine, eyes, "no cameras: needs no graphics"),
+    ARGUMENT_ON("view", 0, CommandLine, view,
+                "send on SIM_VIEW how the robot looks from its two sides, 25 times a second"),
     ARGUMENT_INT64("tool", "N", CommandLine, tool, 0, 16,
                    "tool N in the hand from the start (default 0, none)"),
     ARGUMENT_TEXT(

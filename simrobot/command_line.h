@@ -17,7 +17,7 @@ struct CommandLine {
     int n_overrides = 0;
     bool lockstep = true;
     bool check = false, hold = false, send_truth = true, eyes = true, renderer = false,
-         verbose = false;
+         view = false, verbose = false;
     int64_t seed = 1;
     int64_t bench_eyes = 0;
     int64_t tool = 0; /* in the hand at the start */

@@ -11,6 +11,7 @@
 #include "simrobot/command_line.h"
 #include "simrobot/eyes/egl_context.h"
 #include "simrobot/eyes/eye_thread.h"
+#include "simrobot/eyes/onlooker.h"
 #include "simrobot/eyes/tasks.h"
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
@@ -72,6 +73,7 @@ bool run_on_bus(const sim::CommandLine &line, const sim::Config &config,
     std::unique_ptr<sim::SimBus> bus =
         sim::SimBus::open(line.url, line.truth_url, joint_names(simulation.rig()), error);
     std::unique_ptr<sim::EyeThread> eyes;
+    std::unique_ptr<sim::Onlooker> onlooker;
     sim::ClockControl control;
 
     if (!bus)
@@ -82,9 +84,16 @@ bool run_on_bus(const sim::CommandLine &line, const sim::Config &config,
         if (!eyes)
             return false;
     }
+    if (line.view) {
+        onlooker = sim::Onlooker::create(config, simulation.rig().has_eyes, bus->lcm(),
+                                         !line.lockstep, error);
+        if (!onlooker)
+            return false;
+    }
     control.lockstep = line.lockstep;
     control.until = line.hold ? 0 : INT64_MAX;
     sim::Session session(config, simulation, *bus, eyes.get(), control, line.send_truth);
+    session.set_onlooker(onlooker.get());
     notify_send("READY=1\nSTATUS=running in %s", line.lockstep ? "lockstep" : "real time");
     bool good = line.lockstep ? sim::lockstep_run(config, session, *bus, stopping, error)
                               : sim::realtime_run(config, session, *bus, stopping, error);
@@ -108,7 +117,7 @@ bool start(const sim::CommandLine &line, std::string *error)
     if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
         !sim::rig_load(config, &rig, error))
         return false;
-    if (rig.has_eyes || line.snapshot || line.check)
+    if (rig.has_eyes || line.snapshot || line.view || line.check)
         sim::meshes_load(line.package_path ? line.package_path : config.package_path,
                          &rig.description, &rig.notes);
     for (const std::string &note : sim::strength_notes(rig, config.ball_mass))

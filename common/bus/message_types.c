@@ -51,6 +51,7 @@ static const struct message_type types[] = {
     TYPE(reach, learner_reply_t, "LEARNER_REPLY"),
     TYPE(reach, learner_prediction_t, "LEARNER_PREDICTION"),
     TYPE(bot_core, images_t, "STEREO_IMAGES"),
+    TYPE(bot_core, images_t, "SIM_VIEW"),
     TYPE(bot_core, joint_state_t, "JOINT_STATE"),
 };
 enum { N_TYPES = sizeof types / sizeof types[0], FINGERPRINT = 8 };

@@ -7,6 +7,8 @@ namespace sim
 namespace
 {
 
+const double room_to_spare = 1.1;
+
 /* Half the longest extent of a shape, whichever way it is turned. */
 double reach_of(const Shape &shape)
 {
@@ -33,21 +35,32 @@ Eigen::Isometry3d camera_looking_at(const Eigen::Vector3d &target, const Eigen::
     return Eigen::Translation3d(target + distance * from.normalized()) * Eigen::Isometry3d(axes);
 }
 
+/* How far the robot and what it holds reach from `centre`. */
+double room_wanted(const Snapshot &snapshot, const Eigen::Vector3d &centre)
+{
+    double radius = (snapshot.ball - centre).norm() + snapshot.ball_radius;
+
+    for (const Shape &shape : snapshot.shapes)
+        radius = std::max(radius, (shape.pose.translation() - centre).norm() + reach_of(shape));
+    return radius;
+}
+
 } // namespace
 
-void bystander_look_on(double half_view, Snapshot *snapshot)
+void Bystander::look_on(Snapshot *snapshot)
 {
-    Eigen::AlignedBox3d box(snapshot->ball);
-    double radius = snapshot->ball_radius;
-
-    for (const Shape &shape : snapshot->shapes)
-        box.extend(shape.pose.translation());
-    for (const Shape &shape : snapshot->shapes)
-        radius =
-            std::max(radius, (shape.pose.translation() - box.center()).norm() + reach_of(shape));
-    radius = std::max(radius, (snapshot->ball - box.center()).norm() + snapshot->ball_radius);
-    snapshot->left_eye = camera_looking_at(box.center(), {-0.6, 1, 0.5}, radius / half_view);
-    snapshot->right_eye = camera_looking_at(box.center(), {-0.3, -1, 0.2}, radius / half_view);
+    if (radius_ == 0) {
+        Eigen::AlignedBox3d box(snapshot->ball);
+        for (const Shape &shape : snapshot->shapes)
+            box.extend(shape.pose.translation());
+        centre_ = box.center();
+        radius_ = room_wanted(*snapshot, centre_);
+    }
+    double wanted = room_wanted(*snapshot, centre_);
+    if (wanted > radius_) /* with room to spare: else every picture would be from elsewhere */
+        radius_ = room_to_spare * wanted;
+    snapshot->left_eye = camera_looking_at(centre_, {-0.6, 1, 0.5}, radius_ / half_view_);
+    snapshot->right_eye = camera_looking_at(centre_, {-0.3, -1, 0.2}, radius_ / half_view_);
 }
 
 } // namespace sim

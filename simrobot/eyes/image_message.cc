@@ -7,6 +7,23 @@
 
 namespace sim
 {
+namespace
+{
+
+/* LCM's structures are not const; they are only read here. */
+std::vector<bot_core_image_metadata_t> metadata_of(const std::vector<ImageNote> &notes, int eye)
+{
+    std::vector<bot_core_image_metadata_t> metadata;
+
+    for (const ImageNote &note : notes)
+        if (note.eye == eye)
+            metadata.push_back({const_cast<char *>(note.key.c_str()),
+                                static_cast<int32_t>(note.value.size()),
+                                const_cast<uint8_t *>(note.value.data())});
+    return metadata;
+}
+
+} // namespace
 
 ImageMessage::ImageMessage(const Config &config)
     : width_(config.width), height_(config.height), quality_(config.jpeg_quality),
@@ -63,8 +80,10 @@ void ImageMessage::strip(const uint8_t *pixels, int eye)
 }
 
 std::vector<uint8_t> ImageMessage::encode(int64_t utime, const std::vector<uint8_t> &pixels,
-                                          std::string *error)
+                                          std::string *error, const std::vector<ImageNote> &notes)
 {
+    std::vector<bot_core_image_metadata_t> metadata[2] = {metadata_of(notes, 0),
+                                                          metadata_of(notes, 1)};
     int16_t types[2] = {BOT_CORE_IMAGES_T_LEFT, BOT_CORE_IMAGES_T_RIGHT};
     bot_core_image_t images[2] = {};
     bot_core_images_t message = {};
@@ -83,6 +102,8 @@ std::vector<uint8_t> ImageMessage::encode(int64_t utime, const std::vector<uint8
             jpeg_ ? BOT_CORE_IMAGE_T_PIXEL_FORMAT_MJPEG : BOT_CORE_IMAGE_T_PIXEL_FORMAT_RGB;
         images[eye].size = static_cast<int32_t>(size_[eye]);
         images[eye].data = data_[eye].data();
+        images[eye].nmetadata = static_cast<int32_t>(metadata[eye].size());
+        images[eye].metadata = metadata[eye].data();
     }
     message.utime = utime;
     message.n_images = 2;

@@ -11,6 +11,13 @@
 namespace sim
 {
 
+/* A named block of bytes that goes with one of the images. */
+struct ImageNote {
+    int eye; /* 0 left, 1 right */
+    std::string key;
+    std::vector<uint8_t> value;
+};
+
 class ImageMessage
 {
 public:
@@ -23,7 +30,7 @@ public:
     /* `pixels`: both images side by side as Renderer draws them.
      *   returns the message's bytes, or none with one line in `error`. */
     std::vector<uint8_t> encode(int64_t utime, const std::vector<uint8_t> &pixels,
-                                std::string *error);
+                                std::string *error, const std::vector<ImageNote> &notes = {});
 
 private:
     explicit ImageMessage(const Config &config);

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "common/bus/open.h"
+#include "common/logs/event_log.h"
 #include "simrobot/eyes/bystander.h"
 #include "simrobot/eyes/image_message.h"
 #include "simrobot/eyes/renderer.h"
@@ -74,9 +75,13 @@ bool eye_task_snapshot(const Config &config, const Simulation &simulation, uint6
 
     if (!renderer)
         return false;
+    if (event_log_begins(path.c_str())) {
+        *error = path + ": is a log, and is not overwritten";
+        return false;
+    }
     Snapshot snapshot = simulation.snapshot(1);
     if (!simulation.rig().has_eyes)
-        bystander_look_on(config.height / (2 * config.focal_length), &snapshot);
+        Bystander(config.height / (2 * config.focal_length)).look_on(&snapshot);
     renderer->draw(snapshot, &pixels);
     Sensor(config.sensor_noise, seed).expose(1, &pixels);
     if (write_ppm(path, 2 * config.width, config.height, pixels))

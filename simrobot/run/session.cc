@@ -5,9 +5,16 @@
 
 #include "common/program/log.h"
 #include "simrobot/eyes/eye_thread.h"
+#include "simrobot/eyes/onlooker.h"
 
 namespace sim
 {
+namespace
+{
+
+const int64_t between_looks = 2000 * period_ms; /* us: two control periods */
+
+} // namespace
 
 Session::Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
                  const ClockControl &control, bool send_truth)
@@ -142,6 +149,8 @@ void Session::step(int64_t release)
     simulation_.step();
     if (eyes_ && Exposures::at_step(simulation_.steps()))
         expose(release);
+    if (onlooker_ && simulation_.elapsed() % between_looks == 0)
+        onlooker_->look(simulation_.snapshot(simulation_.elapsed() / between_looks), now());
 }
 
 void Session::expose(int64_t release)

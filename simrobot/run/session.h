@@ -12,6 +12,7 @@ namespace sim
 {
 
 class EyeThread;
+class Onlooker;
 
 /* What the experimenter has asked of the clock. */
 struct ClockControl {
@@ -29,6 +30,12 @@ public:
      * SIM_CONTACTS. */
     Session(const Config &config, Simulation &simulation, SimBus &bus, EyeThread *eyes,
             const ClockControl &control, bool send_truth);
+
+    /* Whom the robot is shown to from now on, every second period; nullptr: nobody. */
+    void set_onlooker(Onlooker *onlooker)
+    {
+        onlooker_ = onlooker;
+    }
 
     /* utime of the world's present instant. */
     int64_t now() const
@@ -107,6 +114,7 @@ private:
     SimBus &bus_;
     DaemonWatch daemon_watch_;
     EyeThread *eyes_;
+    Onlooker *onlooker_ = nullptr;
     ClockControl control_;
     bool send_truth_;
     bool send_effector_;

@@ -1,7 +1,9 @@
 """Every installed program: --help, --version, wrong usage, manual page, completion."""
 
 import gzip
+import os
 import re
+import subprocess
 import unittest
 from collections.abc import Callable
 from pathlib import Path
@@ -107,6 +109,25 @@ class Programs(unittest.TestCase):
             self.assertEqual(set(self.complete(program, "--")), options(self.help_of(program)))
 
         self.each(check)
+
+    def test_completion_in_the_source_tree(self):
+        root = Path(os.environ["REACH_SOURCE_DIR"])
+
+        def complete(program: str, *words: str) -> list[str]:
+            line = " ".join(f"'{word}'" for word in (program, *words))
+            function = "_reach_run" if program == "./run" else "_reach"
+            script = (
+                "source tools/install/completion/reach.bash; complete -p run >/dev/null || exit 1;"
+                f" COMP_WORDS=({line}); COMP_CWORD={len(words)}; {function} {program} 2>/dev/null;"
+                ' printf "%s\\n" "${COMPREPLY[@]}"'
+            )
+            said = subprocess.run(["bash", "-c", script], cwd=root, capture_output=True, text=True)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            return said.stdout.split()
+
+        self.assertEqual(complete("./run", "so"), ["soak"])
+        self.assertLessEqual({"show", "demo", "test"}, set(complete("./run", "")))
+        self.assertIn("--seconds", complete("./run", "show", "--s"))
 
     def test_completion_of_commands(self):
         reachctl = tree.PREFIX / "bin/reachctl"

@@ -21,7 +21,7 @@ IN_REACH = (0.30, -0.15, 0.62)  # m, of the iCub-like robot
 
 def _ready(processes: Processes, out: Path, robot: str) -> Bus:
     bus = Bus(programs.LISTENER_URL, processes.check)
-    programs.wait_until_ready(bus, out, robot)
+    programs.wait_until_ready(bus, robot)
     return bus
 
 

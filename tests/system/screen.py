@@ -1,5 +1,6 @@
 """An X screen without a display, and what is written on it."""
 
+import ctypes
 import mmap
 import os
 import subprocess
@@ -36,6 +37,29 @@ class Screen:
         self._server.terminate()
         self._server.wait()
         self._folder.cleanup()
+
+    def windows(self) -> int:
+        """How many windows are open."""
+        x11 = ctypes.CDLL("libX11.so.6")
+        x11.XOpenDisplay.restype, x11.XDefaultRootWindow.restype = ctypes.c_void_p, ctypes.c_ulong
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.display.encode()))
+        root, parent, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.c_uint()
+        children = ctypes.c_void_p()
+        x11.XQueryTree(display, ctypes.c_ulong(x11.XDefaultRootWindow(display)),
+                       ctypes.byref(root), ctypes.byref(parent), ctypes.byref(children),
+                       ctypes.byref(count))  # fmt: skip
+        x11.XCloseDisplay(display)
+        return count.value
+
+    def type(self, letter: str) -> None:
+        """A key that is pressed and let go, for the window under the pointer."""
+        x11, xtst = ctypes.CDLL("libX11.so.6"), ctypes.CDLL("libXtst.so.6")
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.display.encode()))
+        code = x11.XKeysymToKeycode(display, ctypes.c_ulong(ord(letter)))
+        for pressed in (True, False):
+            xtst.XTestFakeKeyEvent(display, code, pressed, ctypes.c_ulong(0))
+        x11.XCloseDisplay(display)
 
     def picture(self) -> np.ndarray:
         """What is shown now, as height x width x RGB. Xvfb keeps it in a file in XWD format."""

@@ -29,7 +29,7 @@ class Session:
         programs.start(processes, out, seed=2, robot="icub", channels=recorded_runs.CHANNELS,
                        settings=settings)  # fmt: skip
         self.bus = Bus(programs.LISTENER_URL, processes.check)
-        programs.wait_until_ready(self.bus, out, "icub")
+        programs.wait_until_ready(self.bus, "icub")
         self.clock = HeldClock(self.bus, recorded=True)
         self.clock.advance(0.5)
 

@@ -47,7 +47,7 @@ class Cartesian(unittest.TestCase):
             with Processes(out) as processes:
                 programs.start(processes, out, seed=1, robot=robot)
                 bus = Bus(programs.LISTENER_URL, processes.check)
-                programs.wait_until_ready(bus, out, robot)
+                programs.wait_until_ready(bus, robot)
                 clock = HeldClock(bus)
                 clock.advance(0.5)
                 act(Experiment(bus, clock, Progress(dict.fromkeys(PHASES, 1.0)), phases))

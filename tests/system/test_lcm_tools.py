@@ -55,7 +55,7 @@ class Logged(unittest.TestCase):
         with Processes(cls.work) as processes:
             programs.start(processes, cls.work, seed=3, realtime=True)
             bus = Bus(programs.LISTENER_URL, processes.check)
-            programs.wait_until_ready(bus, cls.work)
+            programs.wait_until_ready(bus)
             command = ["lcm-logger", f"--lcm-url={programs.LISTENER_URL}", cls.log]
             logger = subprocess.Popen(command, stdout=subprocess.DEVNULL,
                                       stderr=subprocess.DEVNULL)  # fmt: skip

@@ -55,6 +55,39 @@ class Live(unittest.TestCase):
         self.assertGreater(ring[:upper].sum(), 20)
         self.assertGreater(len(np.unique(pixels[upper:].reshape(-1, 3), axis=0)), 10)  # curves
 
+    def test_the_window_opens_from_where_run_calls_it(self):
+        """The viewer is found without the virtual environment on the PATH, and --do stops at what
+        is refused."""
+        with tempfile.TemporaryDirectory() as folder, screen.Screen(WIDTH, HEIGHT) as display:
+            command = [sys.executable, "-m", "reach.live", "--out", folder, "--lockstep",
+                       "--do", "babble 1", "--do", "load 7", "--do", "babble 2",
+                       "--seconds", "20"]  # fmt: skip
+            environment = {**os.environ, "DISPLAY": display.display, "PATH": "/usr/bin:/bin"}
+            environment["VK_ICD_FILENAMES"] = str(next(SOFTWARE.glob("lvp_icd*.json")))
+            before, path = display.windows(), Path(folder) / "said"
+            with path.open("w") as file:  # a pipe would end only with the viewer
+                code = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file,
+                                       stderr=file, timeout=120, env=environment)  # fmt: skip
+            opened, said = display.windows(), path.read_text()
+        self.assertEqual(code, 0, said)
+        self.assertNotIn("Traceback", said)
+        self.assertGreater(opened, before)
+        self.assertIn("'load 7' was not done", said)
+        self.assertIn("babble: 1 of 1", said)
+        self.assertNotIn("of 2", said)
+
+    def test_another_robot_has_no_empty_panes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recording = Path(folder) / "live.rrd"
+            command = [sys.executable, "-m", "reach.live", "--out", folder, "--config", "sixaxis",
+                       "--lockstep", "--seconds", "2", "--save", recording]  # fmt: skip
+            result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True,
+                                    text=True, timeout=120)  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stderr)
+            told = recording.read_bytes()
+        self.assertNotIn(b"left eye", told)
+        self.assertIn(b"robot", told)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -34,7 +34,7 @@ def commands_of_babbling(out: Path, seed: int, *simrobot: str) -> dict[int, byte
     with Processes(out) as processes:
         programs.start(processes, out, seed=seed, simrobot=simrobot)
         bus = Bus(programs.LISTENER_URL, processes.check)
-        programs.wait_until_ready(bus, out)
+        programs.wait_until_ready(bus)
         clock = HeldClock(bus)
         clock.advance(0.5)
         experiment = Experiment(bus, clock, Progress({}), [])

@@ -29,18 +29,20 @@ class Bus:
         self._lcm = lcm.LCM(url)
         self._check = check
         self._request_seq = request_seq
-        self._sim_seq = 0
+        self._sim_seq = request_seq
         self._held_since: float | None = None  # by what the simulator says
         self._images: list = []
         self._image_subscription = None
         self.status: reach.status_t | None = None
         self.truth: reach.sim_truth_t | None = None
         self.marker: reach.marker_t | None = None
+        self.body: reach.body_t | None = None
         self.samples: deque = deque(maxlen=KEPT_SAMPLES)
         self._roles: dict[int, int] = {}
         self._listen("REACH_STATUS", reach.status_t, lambda m: setattr(self, "status", m))
         self._listen("SIM_TRUTH", reach.sim_truth_t, lambda m: setattr(self, "truth", m))
         self._listen("MARKER", reach.marker_t, lambda m: setattr(self, "marker", m))
+        self._listen("REACH_BODY_IN_USE", reach.body_t, lambda m: setattr(self, "body", m))
         self._listen("REACH_SAMPLE", reach.sample_t, self.samples.append)
         self._listen("REACH_HELLO", reach.hello_t, self._on_hello)
 
@@ -122,14 +124,20 @@ class Bus:
     def send(self, request: reach.request_t) -> None:
         self._lcm.publish("REACH_REQUEST", request.encode())
 
+    def prepare_simulator(self, kind: int, **fields) -> reach.sim_request_t:
+        self._sim_seq += 1
+        return _fill(reach.sim_request_t(), kind, self._sim_seq, fields)
+
+    def tell_simulator(self, request: reach.sim_request_t) -> None:
+        self._lcm.publish("SIM_REQUEST", request.encode())
+
     def ask_simulator(self, kind: int, **fields) -> None:
         """Returns when the simulator has carried it out."""
-        self._sim_seq += 1
-        request = _fill(reach.sim_request_t(), kind, self._sim_seq, fields)
+        request = self.prepare_simulator(kind, **fields)
         self.wait(
             lambda: self.truth is not None and self.truth.request_seq >= request.seq,
             "simrobot",
-            lambda: self._lcm.publish("SIM_REQUEST", request.encode()),
+            lambda: self.tell_simulator(request),
         )
 
     def run_until(self, until: int) -> None:
@@ -137,9 +145,7 @@ class Bus:
         kind, first = reach.sim_request_t.RUN_UNTIL, self._sim_seq + 1
 
         def send() -> None:
-            self._sim_seq += 1
-            request = _fill(reach.sim_request_t(), kind, self._sim_seq, {"until": until})
-            self._lcm.publish("SIM_REQUEST", request.encode())
+            self.tell_simulator(self.prepare_simulator(kind, until=until))
 
         self._held_since = None
         self.wait(lambda: self._time() >= until or self._held_at(until, first),

@@ -5,9 +5,12 @@ from collections.abc import Sequence
 
 from .bus import DEFAULT_URL, Bus, NoAnswerError
 from .messages import reach
+from .metrics import star_targets
+from .simulator import Simulator
 
 MAX_TARGETS = 32
 RESEND_SECONDS = 0.5
+_SILENT_DAEMON = "reachd in {:g} s: it does not run, or no robot state reaches it"
 _RESULTS = {
     reach.status_t.REFUSED_STATE: "refused, not in this state",
     reach.status_t.REFUSED_VALUE: "refused, a value is out of range",
@@ -36,6 +39,7 @@ class Reach:
         # Numbers of requests must differ from those of every client before.
         self._bus = Bus(url, request_seq=time.time_ns() // 1000)
         self._timeout = timeout
+        self.sim = Simulator(self._bus, self._handle_until)
 
     @property
     def status(self) -> reach.status_t:
@@ -47,6 +51,14 @@ class Reach:
     def babble(self, samples: int, *, seed: int = 1, learn: bool = True, wait: bool = True):
         """Collects samples at random configurations, to learn from or (learn=False) to test."""
         return self._behave("BABBLE", wait, count=samples, seed=seed, learn=int(learn))
+
+    def explore(self, samples: int, *, seed: int = 1, wait: bool = True):
+        """Learns to reach from nothing, by goals of the robot's own."""
+        return self._behave("EXPLORE", wait, count=samples, seed=seed, learn=1)
+
+    def star(self, *, period: float = 4.0, learn: bool = True, wait: bool = True):
+        """Reaches for 8 directions and back, from the centre of the babbled range."""
+        return self._pursue("REACH", star_targets(), period, learn, wait, count=1)
 
     def reach(self, u: float, v: float, d: float, *, period: float = 4.0, learn: bool = True,
               wait: bool = True):  # fmt: skip
@@ -73,7 +85,25 @@ class Reach:
         return self._ask("EMERGENCY")
 
     def reset_fault(self):
-        return self._ask("RESET_FAULT")
+        """Returns when the fault is left; RefusedError says that it is still there."""
+        status = self._ask("RESET_FAULT")
+        end = time.monotonic() + self._timeout
+        while status.state == status.FAULT:
+            if time.monotonic() > end:
+                raise RefusedError("reachd is still in its fault state; reachctl status says why")
+            status = self.status
+        return status
+
+    def body(self):
+        """The body_t that the daemon goes by: the robot as it was found."""
+        self._bus.body = None
+        self._ask("TELL_BODY")
+        self._handle_until(lambda: self._bus.body is not None)
+        return self._bus.body
+
+    def forget_body(self):
+        """Gives up the body that was found, and has it searched for anew."""
+        return self._ask("FORGET_BODY")
 
     def save(self, number: int):
         """Keeps the model under this number."""
@@ -82,13 +112,13 @@ class Reach:
     def load(self, number: int):
         return self._ask("LOAD", count=number)
 
-    def _pursue(self, kind: str, targets, period: float, learn: bool, wait: bool):
+    def _pursue(self, kind: str, targets, period: float, learn: bool, wait: bool, **fields):
         rows = [[float(value) for value in target] for target in targets]
         if not 1 <= len(rows) <= MAX_TARGETS or any(len(row) != 3 for row in rows):
             raise ValueError(f"1 to {MAX_TARGETS} targets of three numbers are wanted")
         rows += [[0.0] * 3] * (MAX_TARGETS - len(rows))
         return self._behave(kind, wait, n_targets=len(targets), target=rows, period=period,
-                            learn=int(learn))  # fmt: skip
+                            learn=int(learn), **fields)  # fmt: skip
 
     def _behave(self, kind: str, wait: bool, **fields):
         status = self._ask(kind, **fields)
@@ -123,8 +153,8 @@ class Reach:
         if self._bus.status is None or self._bus.status.request_seq <= request.seq:
             self._bus.send(request)
 
-    def _handle_until(self, done, send=lambda: None) -> None:
-        """Until done(), sending now and then."""
+    def _handle_until(self, done, send=lambda: None, who: str = _SILENT_DAEMON) -> None:
+        """Until done(), sending now and then; `who` is silent otherwise, and perhaps why."""
         now = sent = time.monotonic()
         end = now + self._timeout
         while not done():
@@ -133,8 +163,5 @@ class Reach:
                 send()
                 sent = now
             if now > end:
-                raise NoAnswerError(
-                    f"no answer from reachd in {self._timeout:g} s: it does not run, or no robot"
-                    " state reaches it"
-                )
+                raise NoAnswerError(f"no answer from {who.format(self._timeout)}")
             self._bus.handle(0.01)

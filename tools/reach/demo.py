@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, recording, report, summary
+from . import metrics, pictures, recording, report, run_folder, summary
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .experiment import Experiment, ExperimentError
@@ -98,8 +98,8 @@ def run(options: argparse.Namespace, phases: list[dict]) -> None:
 
 def prepare_folder(out: Path) -> None:
     """Old results must not be taken for those of this run."""
-    out.mkdir(parents=True, exist_ok=True)
-    for name in ("run.json", "summary.json", "report.html", "run.lcmlog", "run.rrd"):
+    run_folder.set_log_aside(out)
+    for name in ("run.json", "summary.json", "report.html", "run.rrd"):
         (out / name).unlink(missing_ok=True)
     shutil.rmtree(out / "images", ignore_errors=True)
 
@@ -138,6 +138,15 @@ def conclude(options: argparse.Namespace) -> None:
         print(line)
 
 
+def perform_and_report(options: argparse.Namespace, phases: list[dict]) -> None:
+    start = time.monotonic()
+    prepare_folder(options.out)
+    run(options, phases)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    write_json(options.out / "run.json", describe(options, phases, time.monotonic() - start))
+    conclude(options)
+
+
 def kept(out: Path, phases: list[dict]) -> str:
     if not (out / "run.lcmlog").exists():
         return "nothing was kept"
@@ -149,13 +158,13 @@ def kept(out: Path, phases: list[dict]) -> str:
 def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     options.out = options.out.resolve()
-    start, phases = time.monotonic(), []
+    phases = []
     try:
-        prepare_folder(options.out)
-        run(options, phases)
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        write_json(options.out / "run.json", describe(options, phases, time.monotonic() - start))
-        conclude(options)
+        with run_folder.claimed(options.out):
+            perform_and_report(options, phases)
+    except run_folder.FolderInUseError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         print(f"\ndemo: stopped; {kept(options.out, phases)}", file=sys.stderr)
         return 130

@@ -43,6 +43,15 @@ def told(gaps: list[Gap]) -> str:
     return f"{sum(gap.size for gap in gaps)} bytes are no event: {'; '.join(named)}{more}"
 
 
+def begins(path: Path) -> bool:
+    """Whether the file is there and begins as a log does: who writes a file of another kind asks
+    before it replaces one."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as file:
+        return file.read(len(_MARK)) == _MARK
+
+
 def events(path: Path, gaps: list[Gap] | None = None) -> Iterator[Event]:
     """In the order of the file. What is no event is noted in `gaps`."""
     with Path(path).open("rb") as file:

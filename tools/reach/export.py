@@ -8,6 +8,7 @@ from pathlib import Path
 
 from . import recording
 from .command_line import Parser
+from .event_log import begins
 from .log_stream import JOINTS, Selection, Stream, counted
 from .mcap_file import McapFile
 from .samples import SamplesError, SamplesFile
@@ -116,6 +117,9 @@ def write(options: argparse.Namespace, stream: Stream) -> list[str]:
 def export(options: argparse.Namespace) -> str:
     """Does it; returns a line about it."""
     stream = Stream(options.log, Selection(options.channels, options.start, options.end))
+    for path in (options.mcap, options.rrd, options.samples, options.test_samples):
+        if path and begins(path):
+            raise OSError(f"{path}: is a log, and is not overwritten")
     lines = write(options, stream)
     if options.rrd:
         bad = recording.write(options.log, options.rrd, options.urdf, stream.selection)

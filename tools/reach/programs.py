@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
+from . import robots, run_folder
 from .bus import DEFAULT_URL, Bus
 from .messages import ROOT, reach
 from .processes import Processes
@@ -28,8 +29,7 @@ def start(
     out: Path,
     *,
     seed: int,
-    robot: str = "kobian",
-    etc: Path = ETC,
+    robot: str | robots.Robot = "kobian",
     configurations: Sequence[Path] = (),
     realtime: bool = False,
     settings: Mapping[str, object] = MappingProxyType({}),
@@ -37,29 +37,29 @@ def start(
     simrobot: tuple = (),
 ) -> None:
     """Starts recorder, reach-finder, reachd, simrobot, whose further options are `simrobot`, and
-    vision where the robot has eyes. The robot's files are in `etc`.
+    vision where the robot has eyes.
 
     reachd reads `configurations` over the robot's, and over them `settings` of single options;
     the log is of the channels that match."""
     clock = ["--realtime"] if realtime else ["--lockstep", "--hold"]
     daemon_clock = "--no-rt" if realtime else "--lockstep"
     url = ["--url", DEFAULT_URL]
-    files = (etc / f"{robot}.yaml", *configurations)
+    robot = _files_of(robot)
+    files = (robot.daemon, *configurations)
     daemon = [word for path in files for word in ("--config", path)]
     daemon += [word for item in settings.items() for word in ("--set", "{}={}".format(*item))]
-    eyes = etc / f"vision-{robot}.yaml"
     commands = {
         "recorder": [sys.executable, "-m", "reach.recorder", "--url", LISTENER_URL,
                      "--channels", channels, out / "run.lcmlog"],
         "finder": [BINARIES / "reach-finder", *url],
         "reachd": [BINARIES / "reachd", *daemon, *url, daemon_clock],
-        "vision": [BINARIES / "reach-vision", "--config", eyes, *url],
-        "simrobot": [BINARIES / "reach-simrobot", "--config", etc / f"simrobot-{robot}.yaml", *url,
+        "vision": [BINARIES / "reach-vision", "--config", robot.vision, *url],
+        "simrobot": [BINARIES / "reach-simrobot", "--config", robot.simulator, *url,
                      *clock, "--seed", str(seed), *simrobot],
     }  # fmt: skip
-    if not eyes.exists():
+    if not robot.vision:
         del commands["vision"]
-    (out / "run.lcmlog").unlink(missing_ok=True)
+    run_folder.set_log_aside(out)
     for name, command in commands.items():
         processes.start(name, command)
         if name == "recorder":  # a log that begins later than the daemon cannot be replayed
@@ -72,12 +72,16 @@ def _wait_for(path: Path, processes: Processes) -> None:
         time.sleep(0.02)
 
 
-def wait_until_ready(bus: Bus, out: Path, robot: str = "kobian", etc: Path = ETC) -> None:
+def _files_of(robot: str | robots.Robot) -> robots.Robot:
+    return robots.named(robot) if isinstance(robot, str) else robot
+
+
+def wait_until_ready(bus: Bus, robot: str | robots.Robot = "kobian") -> None:
     """Until the log is being written and the programs have answered on the bus."""
     hello = reach.hello_t
     bus.wait_for_role(hello.RECORDER, "the recorder")
     bus.wait_for_role(hello.FINDER, "reach-finder")
     bus.wait_for_role(hello.DAEMON, "reachd")
-    if (etc / f"vision-{robot}.yaml").exists():
+    if _files_of(robot).vision:
         bus.wait_for_role(hello.VISION, "vision")
     bus.wait_for_role(hello.SIMULATOR, "simrobot")

@@ -1,6 +1,7 @@
 """Reads an LCM log into one structured array a channel."""
 
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,24 @@ class Record:
 
     def __getitem__(self, channel: str) -> np.ndarray:
         return self._channels[channel]
+
+    def __iter__(self) -> Iterator[str]:
+        """The channels on which there is anything."""
+        return (channel for channel, rows in self._channels.items() if len(rows))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __contains__(self, channel: object) -> bool:
+        return channel in self._channels and len(self._channels[channel]) > 0
+
+    def __repr__(self) -> str:
+        lines = [f"{channel:20} {len(self[channel]):8} messages" for channel in self]
+        if self.refused:
+            lines.append(f"{self.refused} messages that cannot be read")
+        return (
+            "\n".join([f"<Record of {len(self)} channels", *(f"  {line}" for line in lines)]) + ">"
+        )
 
     def lost(self, channel: str = "REACH_STATUS") -> int:
         """Messages that the log should hold but does not, by their sequence numbers."""
@@ -43,6 +62,10 @@ def read_log(path: Path) -> Record:
                 rows[group.channel].append(group.rows)
     if stream.gaps:
         warnings.warn(f"{path}: {told(stream.gaps)}", stacklevel=2)
+    if stream.refused:
+        what = ", ".join(f"{n} of {channel}" for channel, n in stream.refused.items())
+        warnings.warn(f"{path}: was written by another version, or is damaged: {what} cannot be"
+                      " read", stacklevel=2)  # fmt: skip
     columns = {
         channel: np.concatenate(parts) if parts else _none_of(channel)
         for channel, parts in rows.items()

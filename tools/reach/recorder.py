@@ -19,7 +19,7 @@ from .command_line import Parser
 from .log_writer import LogWriter
 from .messages import reach
 
-ALL_BUT_IMAGES = "(?!STEREO_IMAGES).*"
+ALL_BUT_IMAGES = "(?!STEREO_IMAGES|SIM_VIEW).*"
 QUEUE = 100_000  # messages that may wait; a full queue drops the newest
 POLL_MS = 100
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from .event_log import Event, events
-from .log_stream import JOINTS, Selection, Stream
+from .log_stream import IMAGES, JOINTS, Selection, Stream
 from .messages import ROOT
 
 MISSING = (
@@ -38,7 +38,9 @@ def write(log: Path, path: Path, urdf: Path | None = None,
         urdf.open("rb").close()  # Rerun's own complaint does not name the file
     aside = path.with_name(f"{path.name}.new")
     try:
-        bad = view.write_log(_selected(log, selection), aside, urdf or robot_of(log), STEP)
+        bad = view.write_log(
+            _selected(log, selection), aside, urdf or robot_of(log), STEP, has_images(log)
+        )
         aside.replace(path)
         return bad
     except RuntimeError as error:
@@ -66,6 +68,10 @@ def robot_of(log: Path) -> Path | None:
         if joints and joints <= names:
             return urdf
     return None
+
+
+def has_images(log: Path) -> bool:
+    return any(event.channel == IMAGES for event in events(log))
 
 
 def _joints_in(log: Path) -> set[str]:

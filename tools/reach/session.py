@@ -44,8 +44,7 @@ def session(out: Path, stop: Stop, **options) -> Iterator[tuple[Bus, HeldClock |
     with Processes(out) as processes:
         programs.start(processes, out, **options)
         bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
-        robot = {key: options[key] for key in ("robot", "etc") if key in options}
-        programs.wait_until_ready(bus, out, **robot)
+        programs.wait_until_ready(bus, options.get("robot", "kobian"))
         clock = RealClock(bus) if options.get("realtime") else HeldClock(bus, recorded=True)
         clock.advance(SETTLE_SECONDS)
         yield bus, clock

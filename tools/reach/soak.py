@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import metrics, programs
+from . import metrics, programs, run_folder
 from .bus import Bus, NoAnswerError
 from .clock import START_UTIME, HeldClock
 from .command_line import Parser
@@ -208,7 +208,7 @@ def perform(options: argparse.Namespace) -> Soak:
             settings={"model.directory": models}, channels="REACH_SAMPLE",
         )  # fmt: skip
         bus = Bus(programs.LISTENER_URL, lambda: (stop.check(), processes.check()))
-        programs.wait_until_ready(bus, options.out, options.robot)
+        programs.wait_until_ready(bus, options.robot)
         soak = Soak(options, processes, bus)
         try:
             soak.run()
@@ -217,13 +217,22 @@ def perform(options: argparse.Namespace) -> Soak:
     return soak
 
 
+def _empty(folder: Path) -> None:
+    """The folder itself stays: it is locked."""
+    for path in folder.iterdir():
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
 def main(arguments: list[str] | None = None) -> int:
     options = parse_arguments(arguments)
     options.out = options.out.resolve()
-    shutil.rmtree(options.out, ignore_errors=True)
-    options.out.mkdir(parents=True)
     try:
-        soak = perform(options)
+        with run_folder.claimed(options.out):
+            _empty(options.out)
+            soak = perform(options)
+    except run_folder.FolderInUseError as error:
+        print(f"soak: {error}", file=sys.stderr)
+        return 1
     except (ExperimentError, NoAnswerError, ProcessDiedError, OSError) as error:
         print(f"\nsoak: {error}; the programs' logs are in {options.out}", file=sys.stderr)
         return 1

@@ -1,5 +1,7 @@
 """What the window of `./run live` shows, by Rerun; wants rerun-sdk, which `./run live` installs."""
 
+import os
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import rerun.blueprint as rrb
 from rerun.urdf import UrdfTree
 
 from .messages import bot_core, reach
+from .words import body_words
 
 BALL_RADIUS = 0.02  # m
 EYES = {bot_core.images_t.LEFT: "left", bot_core.images_t.RIGHT: "right"}
@@ -17,9 +20,10 @@ _UTIME = slice(8, 16)  # where an encoded message has it
 
 class View:
     """Turns messages into what the window shows, on the robot's own time: of each channel at most
-    one in `step` microseconds. Without a URDF there is no robot to be seen, but all the rest."""
+    one in `step` microseconds. Without a URDF there is no robot to be seen, and without `images` no
+    eyes, but all the rest."""
 
-    def __init__(self, urdf: Path | None, step: int = 1):
+    def __init__(self, urdf: Path | None, step: int = 1, images: bool = True):
         self._joints = {}
         self._body = ""
         self._start: int | None = None
@@ -34,7 +38,7 @@ class View:
         }
         rr.log("robot", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         name, root = self._show_robot(urdf) if urdf else ("robot", None)
-        rr.send_blueprint(blueprint(name, root))
+        rr.send_blueprint(blueprint(name, root, images))
 
     def _show_robot(self, urdf: Path) -> tuple[str, str]:
         """Its name, and that of its first link's frame."""
@@ -94,19 +98,10 @@ class View:
             rr.log("body", rr.TextLog(words))
 
 
-def body_words(status) -> str:
-    """What is known of the robot's body."""
-    if status.body == status.BODY_FOUND:
-        return (f"found from {status.body_samples} samples, off by {status.body_error:.2f} times"
-                f" the noise, unsure by {100 * status.body_doubt:.2f} %")  # fmt: skip
-    others = {status.BODY_SEARCHING: "searching", status.BODY_NO_CHAIN: "not a chain",
-              status.BODY_NO_FINDER: "no reach-finder on the bus"}  # fmt: skip
-    return others.get(status.body, "none yet")
-
-
-def blueprint(robot: str, root: str | None) -> "rrb.Blueprint":
+def blueprint(robot: str, root: str | None, images: bool = True) -> "rrb.Blueprint":
     """Where everything is in the window; `root` is the frame of the robot's first link, if any."""
-    eyes = [rrb.Spatial2DView(origin=f"eyes/{eye}", name=f"{eye} eye") for eye in EYES.values()]
+    shown = EYES.values() if images else ()
+    eyes = [rrb.Spatial2DView(origin=f"eyes/{eye}", name=f"{eye} eye") for eye in shown]
     body = rrb.Spatial3DView(
         origin="/", name="robot",
         contents=["/**", "- /eyes/**", "- /plots/**", f"- /{robot}/collision_geometries/**"],
@@ -117,23 +112,26 @@ def blueprint(robot: str, root: str | None) -> "rrb.Blueprint":
     plots = [rrb.TimeSeriesView(origin=f"plots/{name}", name=title)
              for name, title in titles.items()]  # fmt: skip
     plots.append(rrb.TextLogView(origin="body", name="body"))
-    upper = rrb.Horizontal(*eyes, body, column_shares=[1, 1, 1.2])
+    upper = rrb.Horizontal(*eyes, body, column_shares=[*(1 for _ in eyes), 1.2])
+    at_its_end = rrb.TimePanel(state="collapsed", timeline="robot_time", play_state="following")
     return rrb.Blueprint(rrb.Vertical(upper, rrb.Grid(*plots), row_shares=[1.2, 1]),
-                         collapse_panels=True)  # fmt: skip
+                         at_its_end, collapse_panels=True)  # fmt: skip
 
 
 def open_window() -> None:
+    """The viewer is beside Python in its virtual environment, which need not be on the PATH."""
+    os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     rr.init("reachd")
     rr.spawn(memory_limit="1GB", hide_welcome_screen=True)
 
 
-def write_log(events: Iterable, path: Path, urdf: Path | None, step: int) -> int:
+def write_log(events: Iterable, path: Path, urdf: Path | None, step: int, images: bool) -> int:
     """What the window would have shown of a log, as a file of its own. Returns how many messages
     could not be shown, since they are none of their channels'."""
     bad = 0
     with rr.RecordingStream("reachd") as recording:
         recording.save(path)
-        view = View(urdf, step)
+        view = View(urdf, step, images)
         for event in events:
             try:
                 view.take(event.channel, event.data)

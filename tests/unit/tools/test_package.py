@@ -8,6 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import lcm
 import numpy as np
 import synthetic
 from reach import NoAnswerError, Reach, RefusedError, read_log
@@ -36,6 +37,40 @@ class Client(unittest.TestCase):
         self.assertEqual((save.kind, save.count, stop.kind), (4, 3, 0))
         numbers = [request.seq for request in daemon.requests]
         self.assertEqual(numbers, sorted(set(numbers)))
+
+    def test_every_call_of_reachctl(self):
+        body = types.body_t()
+        body.samples = 30
+        with Scripted(also={"REACH_BODY_IN_USE": body.encode()}) as daemon:
+            robot = Reach()
+            robot.explore(50, seed=3)
+            robot.star(period=2)
+            self.assertEqual(robot.body().samples, 30)
+            robot.forget_body()
+            robot.sim.attach(2)
+            robot.sim.detach()
+            robot.sim.light(0.5)
+            robot.sim.run_until(2.5)
+            robot.sim.quit()
+            with self.assertRaises(ValueError):
+                robot.sim.attach(0)
+        explore, star, tell, forget = daemon.requests
+        self.assertEqual((explore.kind, explore.count, explore.seed), (8, 50, 3))
+        self.assertEqual((star.kind, star.count, star.n_targets, star.period), (3, 1, 16, 2.0))
+        self.assertEqual((tell.kind, forget.kind), (9, 10))
+        asked = {request.seq: request for request in daemon.sim_requests}.values()
+        said = [(r.kind, r.tool, r.value, r.until) for r in asked]
+        self.assertEqual(said[:4], [(0, 2, 0, 0), (0, 0, 0, 0), (2, 0, 0.5, 0), (6, 0, 0, 2500000)])
+
+    def test_a_silent_simulator(self):
+        with self.assertRaisesRegex(NoAnswerError, "simrobot in 0.2 s"):
+            Reach(timeout=0.2).sim.reset()
+
+    def test_a_fault_is_left_or_told(self):
+        with Scripted(faults=20):
+            self.assertEqual(Reach().reset_fault().state, types.status_t.IDLE)
+        with Scripted(faults=10**6), self.assertRaisesRegex(RefusedError, "still in its fault"):
+            Reach(timeout=0.5).reset_fault()
 
     def test_a_second_client_is_not_taken_for_the_first(self):
         with Scripted() as daemon:
@@ -99,6 +134,20 @@ class Installed(unittest.TestCase):
         np.testing.assert_array_equal(column, self.record["MARKER"]["u_right"])
         for name in ("parquet/MARKER.parquet", "run.mcap", "samples.csv"):
             self.assertGreater((self.work / name).stat().st_size, 100)
+
+    def test_a_record_iterates_and_prints_itself(self):
+        self.assertIn("MARKER", self.record)
+        self.assertNotIn("LEARNER_REPLY", self.record)
+        self.assertIn("MARKER", list(self.record))
+        self.assertIn(f"{len(self.record['MARKER'])} messages", repr(self.record))
+
+    def test_a_log_of_another_version_is_told(self):
+        path = self.work / "other.lcmlog"
+        log = lcm.EventLog(str(path), "w", overwrite=True)
+        log.write_event(1, "REACH_STATUS", b"another." + bytes(3000))
+        log.close()
+        with self.assertWarnsRegex(UserWarning, "another version.*1 of REACH_STATUS"):
+            read_log(path)
 
     def test_export_says_what_is_wrong(self):
         self.assertEqual(self.export(self.log).returncode, 2)

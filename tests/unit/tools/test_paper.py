@@ -20,6 +20,7 @@ from reach import metrics
 from reach.paper import __main__ as paper
 from reach.paper import k1, k2, kobian, packed, perform, plan, report, track
 from reach.record import Record
+from reach.run_folder import claimed
 
 PHASES = ("learn_hand", "test_hand_500", "learn_tool", "test_tool_1000", "test_hand_1000",
           "learn_again", "test_hand_1300", "frozen_hand", "coordinate_hand", "star_hand",
@@ -183,10 +184,10 @@ class Claim(unittest.TestCase):
     def test_two_do_not_work_in_one_folder(self):
         with tempfile.TemporaryDirectory() as name:
             arguments = ["--quick", "--only", "E3", "--learner", "lwpr", "--out", name]
-            with paper.claim(Path(name)), contextlib.redirect_stderr(io.StringIO()) as said, \
+            with claimed(Path(name)), contextlib.redirect_stderr(io.StringIO()) as said, \
                  mock.patch.object(paper, "work") as work:  # fmt: skip
                 self.assertEqual(paper.main(arguments), 1)
-            self.assertIn(f"is at work in {Path(name).resolve()}", said.getvalue())
+            self.assertIn(f"{Path(name).resolve()}: another run writes there", said.getvalue())
             work.assert_not_called()
             with mock.patch.object(paper, "work", return_value=0) as work:
                 self.assertEqual(paper.main(arguments), 0)

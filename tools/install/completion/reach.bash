@@ -41,5 +41,25 @@ _reach() {
     fi
 }
 
-# Installed once for each program, under its name, as bash looks for it.
-complete -F _reach "$(basename "${BASH_SOURCE[0]}")"
+# ./run in the source tree: behind a command, the options that the command's own help lists.
+_reach_run() {
+    local word=${COMP_WORDS[COMP_CWORD]}
+    COMPREPLY=()
+    if ((COMP_CWORD == 1)); then
+        mapfile -t COMPREPLY < <(compgen -W "$("$1" help | _reach_commands '')" -- "$word")
+    elif [[ $word == -* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W \
+            "$("$1" "${COMP_WORDS[1]}" --help 2>/dev/null | _reach_options)" -- "$word")
+    else
+        compopt -o default 2>/dev/null
+    fi
+}
+
+# Installed once for each program, under its name, as bash looks for it. In the source tree it is
+# read as it stands, and is for all of them: they are found there by the last part of their paths.
+if [[ $(basename "${BASH_SOURCE[0]}") != reach.bash ]]; then
+    complete -F _reach "$(basename "${BASH_SOURCE[0]}")"
+else
+    complete -F _reach reachd reachctl reach-{bench,eval,finder,learner,log,simrobot,vision}
+    complete -F _reach_run run
+fi

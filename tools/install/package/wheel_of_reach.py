@@ -21,8 +21,8 @@ ROOT = Path(__file__).resolve().parents[3]
 # The rest wants the tree.
 MODULES = (
     "__init__", "bus", "client", "command_line", "event_log", "export", "learner", "log_stream",
-    "mcap_file", "mcap_writer", "message_fields", "messages", "protobuf", "record", "recording",
-    "samples", "table_files", "tables", "view",
+    "mcap_file", "mcap_writer", "message_fields", "messages", "metrics", "protobuf", "record",
+    "recording", "samples", "simulator", "table_files", "tables", "view", "words",
 )  # fmt: skip
 EXTRAS = {"mcap": ["mcap"], "parquet": ["pyarrow"], "rerun": ["rerun-sdk"]}
 SCRIPTS = {"reach-export": "reach.export:main"}

@@ -7,6 +7,7 @@ import re
 import sys
 from pathlib import Path
 
+from .. import robots
 from ..bus import NoAnswerError
 from ..command_line import Parser
 from ..experiment import ExperimentError
@@ -115,7 +116,9 @@ def perform(options: argparse.Namespace, arm: Arm, made: choices.Choices) -> int
     """Explores and reaches. Returns how many targets were missed."""
     targets = choices.postures(arm, made.ranges, options.targets, options.seed + 1)
     places = [arm.place(q) for q in targets]
-    with session(options.out, Stop(), seed=options.seed, robot=options.name, etc=options.out) as (
+    with session(
+        options.out, Stop(), seed=options.seed, robot=robots.named(options.name, options.out)
+    ) as (
         bus,
         clock,
     ):

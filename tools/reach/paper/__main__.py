@@ -5,11 +5,9 @@ again while its inputs stay the same. What remains in OUT: report.html, report.p
 """
 
 import argparse
-import fcntl
 import os
 import sys
 from pathlib import Path
-from typing import IO
 
 from ..bus import NoAnswerError
 from ..command_line import Parser
@@ -17,6 +15,7 @@ from ..experiment import ExperimentError
 from ..processes import ProcessDiedError
 from ..programs import ROOT
 from ..progress import Progress
+from ..run_folder import claimed
 from ..session import Stop
 from . import explore, icub, jobs, kobian, perform, practice, report, rows
 from .plan import LEARNER_NAMES, Run, is_complete, learners_of, plan, version
@@ -140,33 +139,16 @@ def conclude(options: argparse.Namespace, runs: list[Run]) -> None:
             print(f"not met  {row['id']}: {value}, wanted {row['bar']:g}")
 
 
-def claim(out: Path) -> IO | None:
-    """What is to stay open as long as this command works in the folder; None when another does."""
-    out.mkdir(parents=True, exist_ok=True)
-    lock = (out / "lock").open("w")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        lock.close()
-        return None
-    return lock
-
-
 def main(arguments: list[str] | None = None) -> int:
     options = parse(arguments)
     groups = [group for group in GROUPS if set(group.EXPERIMENTS) & set(options.only)]
     runs = plan(groups, options.learner, options.seeds, options.quick)
     try:
-        lock = claim(options.out)
+        with claimed(options.out):
+            return work(options, runs)
     except OSError as error:
         print(f"paper: {error}", file=sys.stderr)
         return 1
-    if lock is None:
-        print(f"paper: another ./run paper is at work in {options.out}; wait for its end, or choose"
-              " another folder with --out", file=sys.stderr)  # fmt: skip
-        return 1
-    with lock:
-        return work(options, runs)
 
 
 def work(options: argparse.Namespace, runs: list[Run]) -> int:
