@@ -74,7 +74,9 @@ class Services(unittest.TestCase):
     def test_people_can_read_how_it_goes(self):
         self.learns(2)
         text = self.machine.property("reachd.service", "StatusText")
-        self.assertRegex(text, r"^\w+, \w+ \(\w+\) \d+ of \d+; \d+ samples, \d+ to be stored, \d+ experts; worst")
+        self.assertRegex(
+            text, r"^\w+, \w+ \(\w+\) \d+ of \d+; \d+ samples, \d+ to be stored, \d+ experts; worst"
+        )
         for unit in ("reach-vision.service", "reach-simrobot.service"):
             self.assertTrue(self.machine.property(unit, "StatusText"), unit)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import screen
 from PIL import Image
-from reach import programs, robots
+from reach import programs, robot_files
 from reach.messages import ROOT
 from reach.pictures import decode
 from reach.session import Stop, session
@@ -34,7 +34,7 @@ def without_display() -> dict:
 
 
 @contextmanager
-def playing(robot: robots.Robot):
+def playing(robot: robot_files.Robot):
     """A run with its operator, without the tour."""
     with tempfile.TemporaryDirectory() as folder:
         options = {"robot": robot, "simrobot": ("--view",)}
@@ -131,7 +131,7 @@ class Window(unittest.TestCase):
 
 class Keys(unittest.TestCase):
     def test_keys_and_clicks_of_a_robot_with_eyes(self):
-        with playing(robots.named("kobian")) as run:
+        with playing(robot_files.named("kobian")) as run:
             scene, operator, places = run.scene, run.operator, layout(True)
             operator.key("t")
             run.go_on(0.5)
@@ -186,7 +186,7 @@ class Keys(unittest.TestCase):
 
     def test_a_urdf_is_enough(self):
         with tempfile.TemporaryDirectory() as folder:
-            robot = robots.find(str(ROOT / "etc/robots/sixaxis.urdf"), Path(folder))
+            robot = robot_files.find(str(ROOT / "etc/robots/sixaxis.urdf"), Path(folder))
             self.assertEqual(robot.tools(), 1)
             with playing(robot) as run:
                 run.operator.key("s")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import lcm
 
-from . import programs, recording, robots, run_folder
+from . import programs, recording, robot_files, run_folder
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .event_log import events
@@ -66,7 +66,7 @@ def keeps_time(bus: Bus) -> bool:
     return bus.status.state != bus.status.FAULT and late < MOST_LATE
 
 
-def show_run(options: argparse.Namespace, robot: robots.Robot, view) -> None:
+def show_run(options: argparse.Namespace, robot: robot_files.Robot, view) -> None:
     """The programs in real time, until the time is over or the user wants an end. In lockstep where
     the machine cannot keep real time, or the user wants that."""
     stop = Stop()
@@ -136,14 +136,14 @@ def main(arguments: list[str] | None = None) -> int:
             show(options, view)
     except KeyboardInterrupt:
         print("live: ended", file=sys.stderr)
-    except (NoAnswerError, ProcessDiedError, robots.RobotError, OSError) as error:
+    except (NoAnswerError, ProcessDiedError, robot_files.RobotError, OSError) as error:
         print(f"live: {error}", file=sys.stderr)
         return 1
     return 0
 
 
 def show(options: argparse.Namespace, view) -> None:
-    robot = robots.find(options.config, options.out / "robot")
+    robot = robot_files.find(options.config, options.out / "robot")
     if options.save:
         view.open_file(options.save)
     else:

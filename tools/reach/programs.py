@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from . import robots, run_folder
+from . import robot_files, run_folder
 from .bus import DEFAULT_URL, Bus
 from .messages import ROOT, reach
 from .processes import Processes
@@ -29,7 +29,7 @@ def start(
     out: Path,
     *,
     seed: int,
-    robot: str | robots.Robot = "kobian",
+    robot: str | robot_files.Robot = "kobian",
     configurations: Sequence[Path] = (),
     realtime: bool = False,
     settings: Mapping[str, object] = MappingProxyType({}),
@@ -72,11 +72,11 @@ def _wait_for(path: Path, processes: Processes) -> None:
         time.sleep(0.02)
 
 
-def _files_of(robot: str | robots.Robot) -> robots.Robot:
-    return robots.named(robot) if isinstance(robot, str) else robot
+def _files_of(robot: str | robot_files.Robot) -> robot_files.Robot:
+    return robot_files.named(robot) if isinstance(robot, str) else robot
 
 
-def wait_until_ready(bus: Bus, robot: str | robots.Robot = "kobian") -> None:
+def wait_until_ready(bus: Bus, robot: str | robot_files.Robot = "kobian") -> None:
     """Until the log is being written and the programs have answered on the bus."""
     hello = reach.hello_t
     bus.wait_for_role(hello.RECORDER, "the recorder")

@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-from .. import robots
+from .. import robot_files
 from ..bus import NoAnswerError
 from ..command_line import Parser
 from ..experiment import ExperimentError
@@ -117,7 +117,7 @@ def perform(options: argparse.Namespace, arm: Arm, made: choices.Choices) -> int
     targets = choices.postures(arm, made.ranges, options.targets, options.seed + 1)
     places = [arm.place(q) for q in targets]
     with session(
-        options.out, Stop(), seed=options.seed, robot=robots.named(options.name, options.out)
+        options.out, Stop(), seed=options.seed, robot=robot_files.named(options.name, options.out)
     ) as (
         bus,
         clock,

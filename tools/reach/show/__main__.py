@@ -9,13 +9,13 @@ from pathlib import Path
 
 from PIL import Image
 
-from .. import programs, robots, run_folder
+from .. import programs, robot_files, run_folder
 from ..bus import NoAnswerError
 from ..command_line import Parser
 from ..messages import ROOT
 from ..processes import ProcessDiedError
 from ..progress import Progress
-from ..robots import RobotError
+from ..robot_files import RobotError
 from ..session import Stop, session
 from . import picture
 from .layout import layout
@@ -90,7 +90,7 @@ def open_outputs(options: argparse.Namespace) -> list:
     return outputs
 
 
-def run(options: argparse.Namespace, robot: robots.Robot, outputs: list) -> None:
+def run(options: argparse.Namespace, robot: robot_files.Robot, outputs: list) -> None:
     settings = {"model.directory": ""}  # whoever plays changes no model that is kept
     with session(options.out, Stop(), seed=options.seed, robot=robot, settings=settings,
                  simrobot=("--view",)) as (bus, clock):  # fmt: skip
@@ -143,7 +143,7 @@ def main(arguments: list[str] | None = None) -> int:
     outputs, wrong = [], ""
     try:
         with run_folder.claimed(options.out):
-            robot = robots.find(options.robot, options.out / "robot")
+            robot = robot_files.find(options.robot, options.out / "robot")
             outputs = open_outputs(options)
             run(options, robot, outputs)
     except KeyboardInterrupt:

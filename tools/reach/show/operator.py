@@ -6,7 +6,7 @@ from .. import metrics
 from ..bus import Bus
 from ..clock import HeldClock
 from ..messages import reach
-from ..robots import Robot
+from ..robot_files import Robot
 from .layout import Layout
 from .scene import Scene
 
