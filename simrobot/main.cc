@@ -15,6 +15,7 @@
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
 #include "simrobot/setup/meshes.h"
+#include "simrobot/world/probe.h"
 #include "simrobot/world/strength.h"
 
 namespace
@@ -117,6 +118,11 @@ bool start(const sim::CommandLine &line, std::string *error)
         log_warning("%s", note.c_str());
     if (line.check)
         return true;
+    if (line.probe) {
+        sim::probe_postures(config, rig, seed, line.probe, stdout);
+        sim::probe_swing(config, rig, seed, 2, stdout);
+        return true;
+    }
     sim::Simulation simulation(config, rig, seed);
     if (!simulation.set_tool(static_cast<int>(line.tool))) {
         *error = std::string(line.config) + ": there is no tool " + std::to_string(line.tool);

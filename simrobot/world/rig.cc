@@ -207,6 +207,19 @@ bool rig_load(const Config &config, Rig *rig, std::string *error)
     return findings.faults.empty();
 }
 
+std::vector<double> rig_any_posture(const Rig &rig, Random *random)
+{
+    std::vector<double> angles;
+
+    for (int joint : rig.joints) {
+        const Segment &segment = rig.description.segments[static_cast<size_t>(joint)];
+        bool ends = std::isfinite(segment.lower);
+        angles.push_back(ends ? random->uniform(segment.lower, segment.upper)
+                              : random->uniform(-M_PI, M_PI));
+    }
+    return angles;
+}
+
 std::vector<double> rig_positions(const Rig &rig, const std::vector<double> &angles)
 {
     const std::vector<Segment> &segments = rig.description.segments;

@@ -187,6 +187,17 @@ def _row(values) -> str:
     return ", ".join(f"{round(value, 3):.10g}" for value in values)
 
 
+def write(
+    folder: Path, name: str, arm: Arm, choices: Choices, repair_inertia: bool = False
+) -> tuple[Path, Path]:
+    """Returns the daemon's file and the simulator's."""
+    written = paths(folder, name)
+    folder.mkdir(parents=True, exist_ok=True)
+    written[0].write_text(daemon(arm, choices))
+    written[1].write_text(simulator(arm, choices, repair_inertia))
+    return written
+
+
 def paths(folder: Path, name: str) -> tuple[Path, Path]:
     """Of the daemon's file and the simulator's, named as programs.start() finds them."""
     return folder / f"{name}.yaml", folder / f"simrobot-{name}.yaml"
