@@ -1,5 +1,6 @@
 #include "simrobot/world/probe.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simrobot/setup/random.h"
@@ -19,6 +20,13 @@ void put_list(const char *name, const double *values, size_t n, const char *end,
     for (size_t i = 0; i < n; i++)
         fprintf(out, "%s%.17g", i ? ", " : "", values[i]);
     fprintf(out, "]%s", end);
+}
+
+const double command_seconds = 0.5; /* of random speeds, until the next ones */
+
+const Segment &joint_of(const Rig &rig, size_t i)
+{
+    return rig.description.segments[static_cast<size_t>(rig.joints[i])];
 }
 
 struct Energy {
@@ -80,6 +88,41 @@ void probe_swing(const Config &config, const Rig &rig, uint64_t seed, double sec
         drift = std::fmax(drift, std::fabs(energy.kinetic + energy.potential - start));
     }
     fprintf(out, "{\"seconds\": %g, \"kinetic\": %.6g, \"drift\": %.6g}\n", seconds, most, drift);
+}
+
+void probe_speeds(const Config &config, const Rig &rig, uint64_t seed, double seconds, FILE *out)
+{
+    Random random(seed, posture_stream);
+    World world(config.physics_step * 1e-3);
+    Robot robot(world, rig, config);
+    std::vector<double> commands(rig.joints.size());
+    int64_t steps = std::llround(seconds / world.step_length());
+    int64_t steps_of_command = std::llround(command_seconds / world.step_length());
+    double fastest = 0;
+    size_t joint = 0;
+
+    robot.reset(rig_any_posture(rig, &random));
+    for (int64_t step = 0; step < steps; step++) {
+        for (size_t i = 0; i < commands.size() && step % steps_of_command == 0; i++)
+            commands[i] = joint_of(rig, i).velocity * random.uniform(-1, 1);
+        robot.command(commands);
+        robot.drive_motors();
+        world.step();
+        std::vector<double> speeds = robot.velocities();
+        for (size_t i = 0; i < speeds.size(); i++) {
+            double share = std::fabs(speeds[i]) / joint_of(rig, i).velocity;
+            if (share <= fastest)
+                continue;
+            fastest = share;
+            joint = i;
+        }
+    }
+    std::string name = joint_of(rig, joint).name;
+    name.erase(std::remove_if(name.begin(), name.end(),
+                              [](char c) { return c == '"' || c == '\\' || c < ' '; }),
+               name.end());
+    fprintf(out, "{\"seconds\": %g, \"fastest\": %.6g, \"joint\": \"%s\"}\n", seconds, fastest,
+            name.c_str());
 }
 
 } // namespace sim

@@ -20,5 +20,10 @@ void probe_postures(const Config &config, const Rig &rig, uint64_t seed, int64_t
  * kinetic and potential energy left where it began (J). */
 void probe_swing(const Config &config, const Rig &rig, uint64_t seed, double seconds, FILE *out);
 
+/* A line of JSON on how fast the joints get for `seconds` of random commands up to their limit
+ * speeds, motors and stops on: "fastest", the greatest speed of one over its limit, and "joint",
+ * its name. */
+void probe_speeds(const Config &config, const Rig &rig, uint64_t seed, double seconds, FILE *out);
+
 } // namespace sim
 #endif

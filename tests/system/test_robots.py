@@ -39,6 +39,7 @@ class Robots(unittest.TestCase):
         self.assertEqual((row.refused, row.repaired, row.weak, row.trouble), ("", 0, 0, {}))
         self.assertEqual(row.joints, 7)
         self.assert_sound(row)
+        self.assertLess(row.fastest, 1.2)
         self.assertGreater(row.body, 0)
         self.assertEqual(row.reached["body"], 6)
         self.assertIn("polynomial", row.reached)

@@ -88,16 +88,29 @@ START_TEST(test_a_free_swing_keeps_its_energy)
         std::string rough = said([&](FILE *out) { probe_swing(coarse, rig, seed, 2, out); });
         std::string exact = said([&](FILE *out) { probe_swing(fine, rig, seed, 2, out); });
         ck_assert_double_gt(number(exact, "kinetic"), 1);
-        ck_assert_msg(number(exact, "drift") < 0.1 * number(exact, "kinetic"), "%s",
-                      exact.c_str());
+        ck_assert_msg(number(exact, "drift") < 0.1 * number(exact, "kinetic"), "%s", exact.c_str());
         ck_assert_msg(number(exact, "drift") < 0.4 * number(rough, "drift"), "%s%s", exact.c_str(),
                       rough.c_str());
     }
 }
 END_TEST
 
+START_TEST(test_random_commands_throw_no_joint)
+{
+    for (const char *name : {"simrobot-sixaxis.yaml", "simrobot-icub.yaml"}) {
+        sim::Config config = fixture::config({"robot.collisions=false"}, name);
+        sim::Rig rig = fixture::rig(config);
+        std::string text = said([&](FILE *out) { probe_speeds(config, rig, 1, 60, out); });
+        ck_assert_msg(number(text, "fastest") > 0.9 && number(text, "fastest") < 1.2, "%s",
+                      text.c_str());
+        ck_assert_ptr_nonnull(strstr(text.c_str(), "\"joint\": \""));
+    }
+}
+END_TEST
+
 int main()
 {
-    const TTest *tests[] = {test_a_line_for_each_posture, test_a_free_swing_keeps_its_energy};
+    const TTest *tests[] = {test_a_line_for_each_posture, test_a_free_swing_keeps_its_energy,
+                            test_random_commands_throw_no_joint};
     return SUITE_RUN("simrobot probe", tests);
 }

@@ -11,7 +11,7 @@ from reach.robots.packages import REQUIREMENTS, Packages
 class Table(unittest.TestCase):
     ROWS = (
         measure.Row("good", 7, reached={"body": 12, "polynomial": 5}, trouble={}, kinematics=2e-16,
-                    drift=0.021, body=33, real_time_factor=2.4),
+                    drift=0.021, fastest=1.04, body=33, real_time_factor=2.4),
         measure.Row("mended", 6, repaired=2, weak=1, reached={"body": 11},
                     trouble={"polynomial": "it stops"}),
         measure.Row("bad", refused="bad.urdf:7: joint x: is none"),
@@ -20,7 +20,7 @@ class Table(unittest.TestCase):
     def test_every_arm_has_a_line(self):
         text = table.of(self.ROWS, 12)
         self.assertIn("| good | 7 | yes | 2.0e-16 |", text)
-        self.assertIn("| 2.1 % | 33 | 12 | 5 | 2 |", text)
+        self.assertIn("| 2.1 % | 1.04 | 33 | 12 | 5 | 2 |", text)
         self.assertIn("| mended | 6 | 2 repaired |", text)
         self.assertIn("| bad |  | refused |", text)
 

@@ -1,6 +1,7 @@
 """One arm through the whole list: load, kinematics, gravity, free swing, learning, reaching."""
 
 import json
+import re
 import subprocess
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,6 +17,8 @@ from .packages import Packages
 
 POSTURES = 100
 BALL = 0.001  # kg, the least
+MUCH, STRONG = 1.2, 20  # times the limit speed; times the effort
+_EFFORT = re.compile(r'effort="\s*([0-9.eE+-]+)\s*"')
 EXACT_STEP = 1  # ms, of the swing: what drifts is the integrator's, and shrinks with the step
 LEARNED = {"body": (), "polynomial": (LEARNERS["polynomial"],)}
 
@@ -32,6 +35,8 @@ class Row:
     kinematics: float | None = None  # m, farthest from pinocchio
     gravity: float | None = None  # N m or N, farthest from pinocchio
     drift: float | None = None  # share of the kinetic energy
+    fastest: float | None = None  # joint under random commands, over its limit speed
+    fastest_strong: float | None = None  # the same with STRONG times the effort, where that is much
     off_chain: float | None = None  # m, while moving
     body: int = 0  # samples from which it was found; 0 = it was not
     reached: dict[str, int] | None = None  # by kind of expert
@@ -79,11 +84,14 @@ def _load(row: Row, arm: Arm, made: choices.Choices, out: Path) -> Path:
 
 
 def _probe(row: Row, arm: Arm, simulator: Path, packages: Packages) -> None:
-    command = [BINARIES / "reach-simrobot", "--config", simulator, "--probe", POSTURES,
-               "--set", f"ball.mass={BALL}", "--set", f"physics.step={EXACT_STEP}"]  # fmt: skip
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=True)
-    *ours, swing = map(json.loads, done.stdout.splitlines())
+    *ours, swing, speeds = _said(simulator, POSTURES)
     row.drift = swing["drift"] / max(swing["kinetic"], 1e-9)
+    row.fastest = speeds["fastest"]
+    if row.fastest > MUCH:
+        stronger = arm.urdf.path.read_text(encoding="utf-8", errors="replace")
+        stronger = _EFFORT.sub(lambda found: f'effort="{STRONG * float(found[1])}"', stronger)
+        (simulator.parent / "strong.urdf").write_text(stronger)
+        row.fastest_strong = _said(simulator, 1, "robot.urdf=strong.urdf")[-1]["fastest"]
     if not packages.complete:
         return
     asked = {"urdf": str(arm.urdf.path), "tip": arm.tip, "ball": BALL,
@@ -99,6 +107,14 @@ def _probe(row: Row, arm: Arm, simulator: Path, packages: Packages) -> None:
     theirs = json.loads(answer.stdout)
     row.kinematics = _farthest(ours, theirs, "place")
     row.gravity = _farthest(ours, theirs, "gravity")
+
+
+def _said(simulator: Path, postures: int, *settings: str) -> list[dict]:
+    settings = (f"ball.mass={BALL}", f"physics.step={EXACT_STEP}", *settings)
+    command = [BINARIES / "reach-simrobot", "--config", simulator, "--probe", postures]
+    command += [word for setting in settings for word in ("--set", setting)]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=True)
+    return list(map(json.loads, done.stdout.splitlines()))
 
 
 def _farthest(ours: list[dict], theirs: list[dict], key: str) -> float:

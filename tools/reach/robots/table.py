@@ -4,8 +4,9 @@ from .measure import Row
 
 _HEAD = (
     "| arm | joints | loads | kinematics off by, m | gravity off by, N m | moving off by, m"
-    " | energy drift | body from | reached, body | reached, polynomial | times real time |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|\n"
+    " | energy drift | fastest | body from | reached, body | reached, polynomial"
+    " | times real time |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|\n"
 )
 
 
@@ -19,10 +20,17 @@ def _line(row: Row) -> str:
     cells = [
         row.name, row.joints, loads, _small(row.kinematics), _small(row.gravity),
         _small(row.off_chain), None if row.drift is None else f"{100 * row.drift:.1f} %",
-        row.body or None, reached.get("body"), reached.get("polynomial"),
+        _speed(row), row.body or None, reached.get("body"), reached.get("polynomial"),
         None if row.real_time_factor is None else f"{row.real_time_factor:.0f}",
     ]  # fmt: skip
     return "| " + " | ".join("" if cell is None else str(cell) for cell in cells) + " |\n"
+
+
+def _speed(row: Row) -> str | None:
+    if row.fastest is None:
+        return None
+    strong = "" if row.fastest_strong is None else f" ({row.fastest_strong:.2f})"
+    return f"{row.fastest:.2f}{strong}"
 
 
 def _small(value: float | None) -> str | None:

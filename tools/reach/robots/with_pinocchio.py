@@ -29,7 +29,7 @@ def main() -> None:
     asked = json.load(sys.stdin)
     model = pin.buildModelFromUrdf(asked["urdf"])
     model.gravity.linear = np.array([0, 0, -GRAVITY])
-    data, tip = model.createData(), model.getFrameId(asked["tip"])
+    data, tip = model.createData(), model.getFrameId(asked["tip"], pin.BODY)
     joints = [model.getJointId(name) for name in asked["joints"]]
     rows = [model.joints[joint].idx_v for joint in joints]
     answers = []
