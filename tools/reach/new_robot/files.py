@@ -70,7 +70,8 @@ explore:
 
 task:
   space: cartesian            # x, y, z of link {tip} in the frame of link {base}, m
-  # A third of the arm's reach, {reach:.2f} m: with it the numbers below suit arms of any size.
+  # Two thirds of the arm's reach, {reach:.2f} m: with it the numbers below suit arms of any size.
+  # With less the arm gives up places where it is nearly stretched.
   scale_position: {scale}     # m that count as one
   singular_threshold: 0.2     # 1/rad in scaled rows
   damping_max: 0.2

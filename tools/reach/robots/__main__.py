@@ -39,6 +39,11 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     )
     add("--samples", type=int, default=300, help="to explore for; default %(default)s")
     add("--targets", type=int, default=12, help="of each arm; default %(default)s")
+    add(
+        "--experts",
+        choices=tuple(measure.LEARNED),
+        help="learn with these alone; default: with each kind anew",
+    )
     add("--seed", type=int, default=1, help="which decides every run; default %(default)s")
     add(
         "--again",
@@ -57,7 +62,8 @@ def chosen(options: argparse.Namespace) -> list[Public]:
 
 def run(options: argparse.Namespace) -> list[measure.Row]:
     packages, rows = Packages(options.cache), []
-    size = measure.Size(options.samples, options.targets, options.seed)
+    kinds = (options.experts,) if options.experts else tuple(measure.LEARNED)
+    size = measure.Size(options.samples, options.targets, options.seed, kinds)
     arms = chosen(options)
     for i, arm in enumerate(arms, start=1):
         folder = options.out / arm.name
