@@ -29,7 +29,7 @@ class Table(unittest.TestCase):
         self.assertIn("2 of 3 load, 1 of them with repaired masses", text)
         self.assertIn("12 of 12 targets within 1 cm: 1 with a body, 0 with polynomials", text)
         self.assertIn("- bad is refused: bad.urdf:7: joint x: is none\n", text)
-        self.assertIn("- mended: 1 motors are too weak", text)
+        self.assertIn("- mended: motors too weak for the arm's weight: 1", text)
         self.assertIn("- mended, polynomial: it stops\n", text)
 
     def test_rows_are_kept(self):

@@ -57,5 +57,7 @@ PUBLIC = [
     Public("gr1", f"{_FOURIER}/gr1t2.urdf"),
     Public("gr3", f"{_FOURIER}/gr3.urdf"),
 ]
-# Of different makers, joints and faults: for tests that have no hour.
-TEN = ("panda", "ur5", "xarm7", "kinova", "z1", "so100", "baxter", "tiago", "icub-data", "gr1")
+# Of different makers and sizes: for tests that have no hour.
+TEN = (
+    "panda", "ur5", "ur10", "xarm7", "kinova", "z1", "so100", "so101", "tiago", "tiago-pro",
+)  # fmt: skip

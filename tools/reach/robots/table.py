@@ -51,7 +51,7 @@ def _sums(rows: list[Row], targets: int) -> str:
 def _notes(rows: list[Row]) -> str:
     """What the table has no room for."""
     lines = [f"- {row.name} is refused: {row.refused}" for row in rows if row.refused]
-    lines += [f"- {row.name}: {row.weak} motors are too weak for the arm's weight"
+    lines += [f"- {row.name}: motors too weak for the arm's weight: {row.weak}"
               for row in rows if row.weak]  # fmt: skip
     lines += [f"- {row.name}, {what}: {why}"
               for row in rows for what, why in (row.trouble or {}).items()]  # fmt: skip
