@@ -41,6 +41,10 @@ const argument_row rows[] = {
                   "folders of packages, separated by colons, for meshes named package://..."),
     ARGUMENT_ON("check", 0, CommandLine, check,
                 "say what is wrong, guessed or left out in configuration and URDF, and exit"),
+    ARGUMENT_INT64("probe", "N", CommandLine, probe, 1, 1000000,
+                   "print N random postures with the hand's place and gravity's torques, how "
+                   "energy holds in a free swing, and how fast random commands make the joints, as "
+                   "lines of JSON, and exit"),
     ARGUMENT_ON("renderer", 0, CommandLine, renderer,
                 "name what draws, or say what is missing, and exit"),
     ARGUMENT_ON("verbose", 'v', CommandLine, verbose, "say more"),

@@ -20,7 +20,8 @@ struct CommandLine {
          view = false, verbose = false;
     int64_t seed = 1;
     int64_t bench_eyes = 0;
-    int64_t tool = 0; /* in the hand at the start */
+    int64_t probe = 0; /* postures */
+    int64_t tool = 0;  /* in the hand at the start */
 };
 
 /* Reads the arguments.

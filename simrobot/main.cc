@@ -16,6 +16,7 @@
 #include "simrobot/run/clock_lockstep.h"
 #include "simrobot/run/clock_realtime.h"
 #include "simrobot/setup/meshes.h"
+#include "simrobot/world/probe.h"
 #include "simrobot/world/strength.h"
 
 namespace
@@ -114,18 +115,26 @@ bool start(const sim::CommandLine &line, std::string *error)
     sim::Rig rig;
     auto seed = static_cast<uint64_t>(line.seed);
 
-    if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error) ||
-        !sim::rig_load(config, &rig, error))
+    if (!sim::config_load(&config, line.config, line.overrides, line.n_overrides, error))
+        return false;
+    if (line.package_path)
+        snprintf(config.package_path, sizeof config.package_path, "%s", line.package_path);
+    if (!sim::rig_load(config, &rig, error))
         return false;
     if (rig.has_eyes || line.snapshot || line.view || line.check)
-        sim::meshes_load(line.package_path ? line.package_path : config.package_path,
-                         &rig.description, &rig.notes);
+        sim::meshes_load(config.package_path, &rig.description, &rig.notes);
     for (const std::string &note : sim::strength_notes(rig, config.ball_mass))
         rig.notes.push_back(note);
     for (const std::string &note : rig.notes)
         log_warning("%s", note.c_str());
     if (line.check)
         return true;
+    if (line.probe) {
+        sim::probe_postures(config, rig, seed, line.probe, stdout);
+        sim::probe_swing(config, rig, seed, 2, stdout);
+        sim::probe_speeds(config, rig, seed, 600, stdout);
+        return true;
+    }
     sim::Simulation simulation(config, rig, seed);
     if (!simulation.set_tool(static_cast<int>(line.tool))) {
         *error = std::string(line.config) + ": there is no tool " + std::to_string(line.tool);

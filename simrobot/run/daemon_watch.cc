@@ -10,6 +10,7 @@ namespace
 {
 
 const int64_t again_us = 10000000;
+const double strained = 0.7; /* of a motor's effort: what is left hardly moves the arm */
 
 std::string number(double value)
 {
@@ -81,12 +82,13 @@ std::string DaemonWatch::fault(const reach_status_t &status, const reach_robot_s
         gravity_torques(rig_, ball_mass_, positions)[static_cast<size_t>(status.fault_joint) - 1]);
     std::string unit = stuck->slides ? " N" : " N m";
     std::string line = "reachd stops: joint " + stuck->name + " does not follow; ";
-    std::string motor = "its motor has " + number(stuck->effort) + unit;
-    return line + (weight > stuck->effort
-                       ? motor + ", and the weight here takes " + number(weight) + unit +
-                             ": it is too weak for this posture"
-                       : motor + ", of which the weight here takes " + number(weight) +
-                             ": something holds it");
+    std::string needs = "its motor has " + number(stuck->effort) + unit +
+                        ", and the weight here takes " + number(weight) + unit;
+    if (weight > stuck->effort)
+        return line + needs + ": it is too weak for this posture";
+    return line + needs +
+           (weight > strained * stuck->effort ? ": little is left to move the arm with"
+                                              : ": something holds it");
 }
 
 } // namespace sim

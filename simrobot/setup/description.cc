@@ -190,17 +190,20 @@ private:
         }
     }
 
-    /* Meshes matter only to who asks for collisions (rig_load). */
     void add_collision(const urdf::Link &link, const urdf::Collision &collision, int index,
                        const Eigen::Isometry3d &pose)
     {
         Shape shape = {};
 
         shape.pose = pose * pose_of(collision.origin);
-        if (collision.geometry && collision.geometry->type == urdf::Geometry::MESH)
-            description_->mesh_link = link.name;
-        else if (set_shape(link, "collision", collision.geometry, &shape))
+        if (collision.geometry && collision.geometry->type == urdf::Geometry::MESH) {
+            const auto &mesh = static_cast<const urdf::Mesh &>(*collision.geometry);
+            description_->mesh_collisions.push_back({index, link.name, mesh.filename,
+                                                     vector_of(mesh.scale), shape.pose, false,
+                                                     Eigen::Vector3f::Zero()});
+        } else if (set_shape(link, "collision", collision.geometry, &shape)) {
             segment(index).collisions.push_back(shape);
+        }
     }
 
     static bool set_geometry(const urdf::Geometry &geometry, Shape *shape)

@@ -34,8 +34,9 @@ struct Shape {
     std::shared_ptr<const Triangles> triangles = nullptr; /* of a mesh, in its own frame */
 };
 
-/* URDF's <visual> of a mesh, which is read only when somebody looks (meshes.h). */
-struct MeshVisual {
+/* A mesh under <visual>, which is read only when somebody looks, or under <collision>, which is
+ * read only where links may collide (meshes.h). */
+struct MeshPart {
     int segment;
     std::string link, file; /* as the URDF has them */
     Eigen::Vector3d scale;
@@ -73,9 +74,7 @@ struct Description {
     std::string path;
     std::vector<Segment> segments; /* [0] is the base, which stands still */
     std::map<std::string, LinkFrame> links;
-    std::vector<MeshVisual> meshes;
-    std::string
-        mesh_link; /* one whose <collision> is not simulated, for it is a mesh; "" if none */
+    std::vector<MeshPart> meshes, mesh_collisions;
 };
 
 /* What of a URDF is wanted. */

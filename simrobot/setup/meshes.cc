@@ -130,8 +130,16 @@ Eigen::AlignedBox3f box_around(const Triangles &corners)
     return box;
 }
 
+/* The shape, which has its pose, becomes this box of its frame. */
+void take_box(const Eigen::AlignedBox3f &box, Shape *shape)
+{
+    shape->kind = ShapeKind::box;
+    shape->size = box.sizes().cast<double>();
+    shape->pose = shape->pose * Eigen::Translation3d(box.center().cast<double>());
+}
+
 /* A mesh, or its box where no grid makes it coarse enough. */
-Shape shape_of(const MeshVisual &visual, const Surface &surface)
+Shape shape_of(const MeshPart &visual, const Surface &surface)
 {
     Eigen::AlignedBox3f box = box_around(surface.corners);
     Triangles corners = surface.corners;
@@ -142,9 +150,7 @@ Shape shape_of(const MeshVisual &visual, const Surface &surface)
     shape.pose = visual.pose;
     shape.colour = visual.has_colour ? visual.colour : surface.colour;
     if (corners.empty() || corners.size() > 3 * most_triangles) {
-        shape.kind = ShapeKind::box;
-        shape.size = box.sizes().cast<double>();
-        shape.pose = shape.pose * Eigen::Translation3d(box.center().cast<double>());
+        take_box(box, &shape);
         return shape;
     }
     shape.kind = ShapeKind::mesh;
@@ -181,7 +187,7 @@ void meshes_load(const std::string &package_path, Description *description,
     size_t missing = 0;
     std::string first;
 
-    for (const MeshVisual &visual : description->meshes) {
+    for (const MeshPart &visual : description->meshes) {
         Surface surface;
         std::string file = mesh_file(description->path, package_path, visual.file);
         if (!file.empty() && read_surface(file, visual.scale, &surface))
@@ -197,6 +203,35 @@ void meshes_load(const std::string &package_path, Description *description,
                          " meshes are left out, the first: " + first +
                          "; --package-path says where packages are");
     description->meshes.clear();
+}
+
+void mesh_collisions_load(const std::string &package_path, Description *description,
+                          Findings *findings)
+{
+    const double thinnest = 1e-3; /* m: ODE wants room in each direction */
+
+    for (const MeshPart &part : description->mesh_collisions) {
+        Surface surface;
+        Shape shape = {};
+        std::string file = mesh_file(description->path, package_path, part.file);
+        if (file.empty() || !read_surface(file, part.scale, &surface)) {
+            findings->faults.push_back(
+                description->path + ": robot.collisions: <collision> of link " + part.link + ": " +
+                part.file + (file.empty() ? " is not there" : " cannot be read") +
+                "; --package-path says where packages are");
+            continue;
+        }
+        shape.pose = part.pose;
+        shape.colour = part.colour;
+        take_box(box_around(surface.corners), &shape);
+        shape.size = shape.size.cwiseMax(thinnest);
+        description->segments[static_cast<size_t>(part.segment)].collisions.push_back(shape);
+    }
+    if (!description->mesh_collisions.empty())
+        findings->notes.push_back(description->path + ": robot.collisions: " +
+                                  std::to_string(description->mesh_collisions.size()) +
+                                  " meshes are taken as the boxes that hold them");
+    description->mesh_collisions.clear();
 }
 
 } // namespace sim

@@ -1,5 +1,5 @@
-/* What the meshes of a URDF look like: read when somebody looks at the robot, in few triangles,
- * since they are drawn on the CPU. */
+/* The meshes of a URDF: what they look like, read when somebody looks at the robot, in few
+ * triangles, since they are drawn on the CPU; and the room that they take, where links collide. */
 #ifndef SIMROBOT_SETUP_MESHES_H
 #define SIMROBOT_SETUP_MESHES_H
 
@@ -21,6 +21,12 @@ std::string mesh_file(const std::string &urdf, const std::string &package_path,
  * missing or cannot be read are left out, with one line for all in `notes`. */
 void meshes_load(const std::string &package_path, Description *description,
                  std::vector<std::string> *notes);
+
+/* Reads the meshes under <collision>: each is taken as the box that holds it, in its own axes, and
+ * one line in `findings` says so. Who asks for collisions must not be told of fewer than there are:
+ * a file that is missing or cannot be read is a fault. */
+void mesh_collisions_load(const std::string &package_path, Description *description,
+                          Findings *findings);
 
 } // namespace sim
 #endif

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "simrobot/setup/meshes.h"
+
 namespace sim
 {
 namespace
@@ -28,8 +30,8 @@ std::vector<std::string> words_of(const char *names)
 class Finder
 {
 public:
-    Finder(const Config &config, Rig *rig, std::vector<std::string> *faults)
-        : config_(config), rig_(rig), faults_(faults)
+    Finder(const Config &config, Rig *rig, Findings *findings)
+        : config_(config), rig_(rig), findings_(findings)
     {
     }
 
@@ -40,12 +42,10 @@ public:
         add_joints(head);
         size_t n = rig_->joints.size();
         if (arm.empty() || n > static_cast<size_t>(max_joints))
-            faults_->push_back("robot: between 1 and " + std::to_string(max_joints) +
-                               " joints are wanted");
+            fault("robot: between 1 and " + std::to_string(max_joints) + " joints are wanted");
         bool complete = n == arm.size() + head.size(); /* else nothing may move */
         if (find_link(config_.hand_link, &rig_->hand) && rig_->hand.segment == 0 && complete)
-            faults_->push_back(rig_->description.path + ": link " + config_.hand_link +
-                               " does not move");
+            fault(rig_->description.path + ": link " + config_.hand_link + " does not move");
         find_collisions();
         find_eyes(head.size());
         if (complete)
@@ -53,15 +53,20 @@ public:
     }
 
 private:
+    void fault(const std::string &line)
+    {
+        findings_->faults.push_back(line);
+    }
+
     void add_joints(const std::vector<std::string> &names)
     {
         for (const std::string &name : names) {
             std::string error;
             int segment = description_joint(rig_->description, name, &error);
             if (segment < 0)
-                faults_->push_back(error);
+                fault(error);
             else if (std::count(rig_->joints.begin(), rig_->joints.end(), segment))
-                faults_->push_back("robot: joint " + name + " is named twice");
+                fault("robot: joint " + name + " is named twice");
             else
                 rig_->joints.push_back(segment);
         }
@@ -75,24 +80,21 @@ private:
         if (found)
             *frame = *found;
         else
-            faults_->push_back(error);
+            fault(error);
         return found != nullptr;
     }
 
     /* Who asks for collisions is told what would not collide. */
     void find_collisions()
     {
-        const Description &description = rig_->description;
-        bool any = std::any_of(description.segments.begin(), description.segments.end(),
-                               [](const Segment &segment) { return !segment.collisions.empty(); });
+        Description *description = &rig_->description;
 
-        if (!config_.collisions || (any && description.mesh_link.empty()))
+        if (!config_.collisions)
             return;
-        faults_->push_back(description.path + ": robot.collisions: " +
-                           (any || !description.mesh_link.empty()
-                                ? "<collision> of link " + description.mesh_link +
-                                      " is a mesh; make it of boxes, cylinders and spheres"
-                                : "no link has <collision>"));
+        mesh_collisions_load(config_.package_path, description, findings_);
+        if (std::all_of(description->segments.begin(), description->segments.end(),
+                        [](const Segment &segment) { return segment.collisions.empty(); }))
+            fault(description->path + ": robot.collisions: no link has <collision>");
     }
 
     void find_eyes(size_t n_head)
@@ -100,8 +102,7 @@ private:
         if (!config_.left_eye[0] && !config_.right_eye[0] && n_head == 0)
             return;
         if (!config_.left_eye[0] || !config_.right_eye[0] || n_head != 2) {
-            faults_->push_back(
-                "robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints");
+            fault("robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints");
             return;
         }
         rig_->has_eyes = true;
@@ -117,7 +118,7 @@ private:
 
         rig_->start.assign(n, 0.0);
         if (given != 0 && given != n) {
-            faults_->push_back("robot.start: " + std::to_string(n) + " angles are wanted");
+            fault("robot.start: " + std::to_string(n) + " angles are wanted");
             return;
         }
         for (size_t i = 0; i < n; i++)
@@ -137,7 +138,7 @@ private:
                             text_of(segment, segment.upper);
         double middle = (segment.lower + segment.upper) / 2;
         if (given)
-            faults_->push_back("robot.start: " + where);
+            fault("robot.start: " + where);
         else
             rig_->notes.push_back(where + "; it starts at their middle, " +
                                   text_of(segment, middle));
@@ -154,7 +155,7 @@ private:
 
     const Config &config_;
     Rig *rig_;
-    std::vector<std::string> *faults_;
+    Findings *findings_;
 };
 
 struct PixelPoint {
@@ -199,12 +200,25 @@ bool rig_load(const Config &config, Rig *rig, std::string *error)
     rig->height = config.height;
     wanted.joints.insert(wanted.joints.end(), head.begin(), head.end());
     if (description_load(config.urdf, wanted, &rig->description, &findings))
-        Finder(config, rig, &findings.faults).find(arm, head);
+        Finder(config, rig, &findings).find(arm, head);
     rig->notes.insert(rig->notes.begin(), findings.notes.begin(), findings.notes.end());
     error->clear();
     for (const std::string &fault : findings.faults)
         *error += (error->empty() ? "" : "\n") + fault;
     return findings.faults.empty();
+}
+
+std::vector<double> rig_any_posture(const Rig &rig, Random *random)
+{
+    std::vector<double> angles;
+
+    for (int joint : rig.joints) {
+        const Segment &segment = rig.description.segments[static_cast<size_t>(joint)];
+        bool ends = std::isfinite(segment.lower);
+        angles.push_back(ends ? random->uniform(segment.lower, segment.upper)
+                              : random->uniform(-M_PI, M_PI));
+    }
+    return angles;
 }
 
 std::vector<double> rig_positions(const Rig &rig, const std::vector<double> &angles)

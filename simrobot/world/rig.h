@@ -6,6 +6,7 @@
 
 #include "simrobot/setup/config.h"
 #include "simrobot/setup/description.h"
+#include "simrobot/setup/random.h"
 
 namespace sim
 {
@@ -40,6 +41,9 @@ struct Fixation {
 /* Reads the URDF and finds every named part in it.
  *   returns false with all that is wrong in `error`, a line each. */
 bool rig_load(const Config &config, Rig *rig, std::string *error);
+
+/* Angles of `joints` that their limits allow (rad, m); of one that turns without end, a turn. */
+std::vector<double> rig_any_posture(const Rig &rig, Random *random);
 
 /* Angles of all segments' joints, those that follow others included (rad, m). `angles` in the order
  * of `joints`. */

@@ -12,20 +12,6 @@ namespace
 
 const int postures = 2000;
 
-/* A posture that the limits allow; joints that turn without end take a whole turn. */
-std::vector<double> any_posture(const Rig &rig, Random *random)
-{
-    std::vector<double> angles;
-
-    for (int joint : rig.joints) {
-        const Segment &segment = rig.description.segments[static_cast<size_t>(joint)];
-        bool ends = std::isfinite(segment.lower);
-        angles.push_back(ends ? random->uniform(segment.lower, segment.upper)
-                              : random->uniform(-M_PI, M_PI));
-    }
-    return angles;
-}
-
 struct Load {
     double mass = 0;                                  /* kg */
     Eigen::Vector3d moment = Eigen::Vector3d::Zero(); /* mass times place, kg m */
@@ -74,7 +60,8 @@ std::vector<std::string> strength_notes(const Rig &rig, double ball_mass)
     Random random(1, 0);
 
     for (int n = 0; n < postures; n++) {
-        std::vector<double> torques = gravity_torques(rig, ball_mass, any_posture(rig, &random));
+        std::vector<double> torques =
+            gravity_torques(rig, ball_mass, rig_any_posture(rig, &random));
         for (size_t i = 0; i < torques.size(); i++) {
             double effort = rig.description.segments[static_cast<size_t>(rig.joints[i])].effort;
             most[i] = std::max(most[i], std::fabs(torques[i]));

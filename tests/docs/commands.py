@@ -24,7 +24,7 @@ WRAPPERS = {
     "env": 0,
     "nsenter": 3,
 }
-PYTHON = (".venv/bin/python", "python", "python3")
+PYTHON = (".venv/bin/python", "out/mujoco/bin/python", "python", "python3")
 # Of the running shell, not of a program.
 _ASSIGNMENT = re.compile(r"[A-Za-z_]\w*=")
 
@@ -142,7 +142,7 @@ def _run(words: list[str]) -> Iterator[str]:
 
 def _python(words: list[str]) -> Iterator[str]:
     if words[:1] == ["-m"]:
-        if words[1] == "pip":
+        if words[1] in ("pip", "venv"):
             return
         text = known.module_help(words[1])
         if not text:

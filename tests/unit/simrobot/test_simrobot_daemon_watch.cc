@@ -91,9 +91,9 @@ END_TEST
 
 START_TEST(test_a_joint_that_stops_is_too_weak_or_held)
 {
-    Watched weak(10), strong;
+    Watched weak(10), strained(16), strong;
 
-    for (Watched *watched : {&weak, &strong}) {
+    for (Watched *watched : {&weak, &strained, &strong}) {
         watched->status.fault = REACH_STATUS_T_FAULT_STILL;
         watched->status.fault_joint = 2;
     }
@@ -101,6 +101,8 @@ START_TEST(test_a_joint_that_stops_is_too_weak_or_held)
     ck_assert_msg(says(line, "joint shoulder does not follow; its motor has 10 N m, and"), "%s",
                   line.c_str());
     ck_assert(says(line, "too weak for this posture"));
+    line = strained.look(second);
+    ck_assert_msg(says(line, "little is left to move the arm with"), "%s", line.c_str());
     line = strong.look(second);
     ck_assert_msg(says(line, "something holds it"), "%s", line.c_str());
     ck_assert_str_eq(strong.look(2 * second).c_str(), "");

@@ -232,6 +232,33 @@ START_TEST(test_stl_obj_and_dae_are_read_with_their_scale)
 }
 END_TEST
 
+/* A block from the origin to (1, 2, 3), in a tenth of its size: a box about its middle. */
+START_TEST(test_what_collides_is_the_box_that_holds_the_mesh)
+{
+    Folder folder;
+    sim::Description description;
+    sim::Findings findings;
+    folder.write("robot_description/meshes/a.stl", block_stl());
+    Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1));
+
+    description.path = folder.urdf();
+    description.segments.emplace_back();
+    for (const char *file : {"package://robot_description/meshes/a.stl", "../meshes/none.stl"})
+        description.mesh_collisions.push_back({0, "link", file, Eigen::Vector3d::Constant(0.1),
+                                               pose, false, Eigen::Vector3f::Zero()});
+    sim::mesh_collisions_load("", &description, &findings);
+    ck_assert_uint_eq(description.segments[0].collisions.size(), 1);
+    const sim::Shape &box = description.segments[0].collisions[0];
+    ck_assert(box.kind == sim::ShapeKind::box);
+    ck_assert_double_lt((box.size - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), 1e-6);
+    ck_assert_double_lt((box.pose.translation() - Eigen::Vector3d(0.05, 0.1, 1.15)).norm(), 1e-6);
+    ck_assert_uint_eq(findings.notes.size(), 1);
+    ck_assert_ptr_nonnull(strstr(findings.notes[0].c_str(), "boxes that hold them"));
+    ck_assert_uint_eq(findings.faults.size(), 1);
+    ck_assert_ptr_nonnull(strstr(findings.faults[0].c_str(), "link link: ../meshes/none.stl"));
+}
+END_TEST
+
 START_TEST(test_a_fine_mesh_is_made_coarser_and_keeps_its_form)
 {
     Folder folder;
@@ -302,6 +329,7 @@ int main()
 {
     const TTest *tests[] = {test_files_are_found_as_they_are_named,
                             test_stl_obj_and_dae_are_read_with_their_scale,
+                            test_what_collides_is_the_box_that_holds_the_mesh,
                             test_a_fine_mesh_is_made_coarser_and_keeps_its_form,
                             test_what_is_missing_is_left_out_with_one_line,
                             test_a_mesh_is_drawn_and_hides_as_the_box_it_is};

@@ -7,13 +7,11 @@ import re
 import sys
 from pathlib import Path
 
-from .. import robot_files
 from ..bus import NoAnswerError
 from ..command_line import Parser
 from ..experiment import ExperimentError
 from ..messages import ROOT
 from ..processes import ProcessDiedError
-from ..session import Stop, session
 from . import choices, files, trial
 from .urdf import Arm, UnusableError, Urdf
 
@@ -71,16 +69,12 @@ def _count(text: str) -> int:
 
 def write(options: argparse.Namespace, arm: Arm, made: choices.Choices) -> tuple[Path, Path]:
     """The daemon's file and the simulator's."""
-    daemon, simulator = files.paths(options.out, options.name)
-    for path in (daemon, simulator):
+    for path in files.paths(options.out, options.name):
         if path.exists() and not options.overwrite:
             raise UnusableError(
                 f"{path}: is there already, and may have been edited; --overwrite writes it anew"
             )
-    options.out.mkdir(parents=True, exist_ok=True)
-    daemon.write_text(files.daemon(arm, made))
-    simulator.write_text(files.simulator(arm, made, options.repair_inertia))
-    return daemon, simulator
+    return files.write(options.out, options.name, arm, made, options.repair_inertia)
 
 
 def tell_arm(arm: Arm, made: choices.Choices, written: tuple[Path, Path]) -> None:
@@ -112,22 +106,6 @@ def tell_check(simulator: Path) -> None:
         raise UnusableError(f"the simulator refuses this robot for what is said above; {remedy}")
 
 
-def perform(options: argparse.Namespace, arm: Arm, made: choices.Choices) -> int:
-    """Explores and reaches. Returns how many targets were missed."""
-    targets = choices.postures(arm, made.ranges, options.targets, options.seed + 1)
-    places = [arm.place(q) for q in targets]
-    with session(
-        options.out, Stop(), seed=options.seed, robot=robot_files.named(options.name, options.out)
-    ) as (
-        bus,
-        clock,
-    ):
-        status = trial.explore(bus, clock, options.samples, options.seed)
-        results = trial.reach_for(bus, clock, places)
-    tell_body(status)
-    return tell_table(results)
-
-
 def tell_body(status) -> None:
     found = status.body == status.BODY_FOUND
     print(
@@ -137,15 +115,14 @@ def tell_body(status) -> None:
     )
 
 
-def tell_table(results: list[trial.Reached]) -> int:
+def tell_table(results: list[trial.Reached]) -> None:
     print("\ntarget, m                    off by, mm")
     for one in results:
         x, y, z = one.target
-        missed = "" if one.distance <= trial.REACHED else "  missed"
+        missed = "" if one.is_good else "  missed"
         print(f"{x:8.3f} {y:8.3f} {z:8.3f}  {1000 * one.distance:10.2f}{missed}")
-    good = sum(one.distance <= trial.REACHED for one in results)
+    good = sum(one.is_good for one in results)
     print(f"{good} of {len(results)} within {1000 * trial.REACHED:.0f} mm")
-    return len(results) - good
 
 
 def tell_next(daemon: Path, simulator: Path) -> None:
@@ -167,7 +144,13 @@ def run(options: argparse.Namespace) -> int:
     daemon, simulator = write(options, arm, made)
     tell_arm(arm, made, (daemon, simulator))
     tell_check(simulator)
-    missed = 0 if options.write_only else perform(options, arm, made)
+    missed = False
+    if not options.write_only:
+        plan = trial.Plan(options.out, options.name, options.samples, options.targets, options.seed)
+        outcome = trial.run(plan, arm, made)
+        tell_body(outcome.status)
+        tell_table(outcome.reached)
+        missed = outcome.good < len(outcome.reached)
     tell_next(daemon, simulator)
     return 1 if missed else 0
 

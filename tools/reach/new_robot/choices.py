@@ -81,7 +81,7 @@ def choose(arm: Arm, seed: int = 1) -> Choices:
         motion,
         min(USUAL_NOISE, 0.75 * motion),
         spread,
-        float(f"{max(spread / 3, 0.01):.2g}"),
+        float(f"{max(2 / 3 * spread, 0.01):.2g}"),
     )
 
 

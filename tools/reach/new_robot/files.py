@@ -70,7 +70,8 @@ explore:
 
 task:
   space: cartesian            # x, y, z of link {tip} in the frame of link {base}, m
-  # A third of the arm's reach, {reach:.2f} m: with it the numbers below suit arms of any size.
+  # Two thirds of the arm's reach, {reach:.2f} m: with it the numbers below suit arms of any size.
+  # With less the arm gives up places where it is nearly stretched.
   scale_position: {scale}     # m that count as one
   singular_threshold: 0.2     # 1/rad in scaled rows
   damping_max: 0.2
@@ -185,6 +186,17 @@ def _ranges(arm: Arm, choices: Choices, deg: list[tuple[float, float]]) -> str:
 
 def _row(values) -> str:
     return ", ".join(f"{round(value, 3):.10g}" for value in values)
+
+
+def write(
+    folder: Path, name: str, arm: Arm, choices: Choices, repair_inertia: bool = False
+) -> tuple[Path, Path]:
+    """Returns the daemon's file and the simulator's."""
+    written = paths(folder, name)
+    folder.mkdir(parents=True, exist_ok=True)
+    written[0].write_text(daemon(arm, choices))
+    written[1].write_text(simulator(arm, choices, repair_inertia))
+    return written
 
 
 def paths(folder: Path, name: str) -> tuple[Path, Path]:

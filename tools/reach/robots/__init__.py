@@ -1,0 +1,1 @@
+"""Public arms on the simulator: do they load, hold together, learn and reach?"""
