@@ -232,6 +232,10 @@ int main(int argc, char **argv)
         log_error("--show: no display (DISPLAY and WAYLAND_DISPLAY are not set)");
         return 1;
     }
+    if (config.ball_radius <= 0)
+        log_warning(
+            "ball.radius is not set: a thing of the ball's colour but of another size can be "
+            "taken for it; set the true radius in metres");
     catch_signals();
     receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
                          6);

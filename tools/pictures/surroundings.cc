@@ -121,7 +121,7 @@ void surroundings_clutter(random_source *random, const drawn_ball &ball, cv::Mat
 void surroundings_cover(random_source *random, const drawn_ball &ball, cv::Mat *picture)
 {
     const int fingers = 1 + random_whole(random, 3);
-    const double width = random_between(random, 0.3, 0.6) * ball.radius / std::sqrt(fingers);
+    const double width = random_between(random, 0.25, 0.7) * ball.radius / fingers;
     const double turn = random_between(random, 0, pi);
     const cv::Vec3f colour = dull(random);
 

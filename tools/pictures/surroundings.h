@@ -10,7 +10,7 @@ void surroundings_room(random_source *random, cv::Mat *picture);
 /* Things of the ball's colour that are no balls: boards, leaves, bands, some behind `ball`. */
 void surroundings_clutter(random_source *random, const drawn_ball &ball, cv::Mat *picture);
 
-/* A hand or tool before the ball: leaves 55 to 85 % of its disc free. */
+/* A hand or tool before the ball: hides 12 to 45 % of a disc that it crosses in the middle. */
 void surroundings_cover(random_source *random, const drawn_ball &ball, cv::Mat *picture);
 
 #endif

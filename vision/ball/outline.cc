@@ -20,8 +20,7 @@ static bool cone_of(const direction &m, outline *cone)
     return true;
 }
 
-/* Of a direction from the cone, outwards positive; px at the focal length. */
-static double outline_distance(const outline &cone, const direction &view, double focal)
+double outline_distance(const outline &cone, const direction &view, double focal)
 {
     /* cos(angle) / cos(half) - 1 is, to first order, tan(half) (half - angle). */
     return (1 - direction_dot(cone.axis, view) / cone.cosine) / cone.tangent * focal;
@@ -32,7 +31,7 @@ static direction minus(const direction &a, const direction &b)
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-static bool through_three(const direction &a, const direction &b, const direction &c, outline *cone)
+bool outline_through(const direction &a, const direction &b, const direction &c, outline *cone)
 {
     const direction normal = direction_cross(minus(b, a), minus(c, a));
     const double height = direction_dot(normal, a);
@@ -115,7 +114,7 @@ bool outline_consensus(const outline_points &points, double focal, double tolera
             const int k = (j + span) % OUTLINE_RAYS;
             outline trial;
             if (!points.valid[i] || !points.valid[j] || !points.valid[k] ||
-                !through_three(points.view[i], points.view[j], points.view[k], &trial))
+                !outline_through(points.view[i], points.view[j], points.view[k], &trial))
                 continue;
             const int near = count_near(views, focal, tolerance, trial);
             if (near > best) {

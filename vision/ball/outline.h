@@ -16,6 +16,7 @@ enum { OUTLINE_RAYS = 96 };
 struct outline_points {
     direction view[OUTLINE_RAYS];
     bool valid[OUTLINE_RAYS];
+    bool outside[OUTLINE_RAYS]; /* of the picture; set by edges_fine */
 };
 
 struct outline {
@@ -25,6 +26,12 @@ struct outline {
     int support;    /* edge points that the cone agrees with */
     double rms;     /* of their distances from it; px */
 };
+
+/* Of a direction from the cone, outwards positive; px at the focal length. */
+double outline_distance(const outline &cone, const direction &view, double focal);
+
+/* The cone through three directions. Returns false when there is none. */
+bool outline_through(const direction &a, const direction &b, const direction &c, outline *cone);
 
 /* The cone on which most points agree to `tolerance` px, however wrong the others are: tries cones
  * through three points in a fixed order. Returns false when no three points make a cone. */

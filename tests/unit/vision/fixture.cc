@@ -26,7 +26,7 @@ eyes_config fixture_config()
     eyes_config config = {};
 
     config.colour = {125 * degree, 35 * degree, 0.35, 1, 0.12};
-    config.limits = {8, 110, 0.5, 0.5, 0.8};
+    config.limits = {0.35 * degree, 5.25 * degree, 0.5, 0.5, 0.8};
     config.rig = {eyes.left, eyes.right, eyes.vergence, eyes.baseline, 0, 3, 0.15, -300, 300};
     config.window = {24, 300, 500000};
     config.window_step = 3;

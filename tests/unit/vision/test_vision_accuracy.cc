@@ -145,7 +145,7 @@ START_TEST(hidden_ball_is_right_or_not_seen)
 }
 END_TEST
 
-/* Where the picture ends so does the outline; with too little of it nothing is said. */
+/* Where the picture ends so does the outline. What is left must be seen, and be enough. */
 START_TEST(ball_cut_by_the_rim_needs_enough_outline)
 {
     scene_eyes rig = scene_default_eyes();
@@ -157,15 +157,16 @@ START_TEST(ball_cut_by_the_rim_needs_enough_outline)
     what.spheres[0].centre = {0, 0.102, 0.5};
     const picture_pair pair = fixture_draw(what, rig, random);
     const fixture_truth truth = fixture_truth_of(what, rig);
-    for (double coverage_min : {0.6, 0.25}) {
+    for (double coverage_min : {0.95, 0.6}) {
         eyes who;
         config.limits.coverage_min = coverage_min;
         eyes_init(&who, config);
         const stereo_marker marker = eyes_look(&who, 1000000, pair.left.view(), pair.right.view());
-        if (coverage_min > 0.5) {
+        if (coverage_min > 0.9) {
             ck_assert_int_eq(marker.reason, STEREO_NOT_IN_RIGHT);
         } else {
             ck_assert_int_eq(marker.reason, STEREO_SEEN);
+            ck_assert_double_lt(std::fabs(marker.u_right - truth.u_right), 0.3);
             ck_assert_double_lt(std::fabs(marker.v_right - truth.v_right), 1);
         }
     }
