@@ -25,7 +25,22 @@
                " camera: factor of the squared slope of a line of sight"),                         \
         NUMBER(#eye ".k2", eye##_k2, nullptr, "0", -2, 2,                                          \
                "radial distortion of the " #eye                                                    \
-               " camera: factor of the fourth power of the slope of a line of sight")
+               " camera: factor of the fourth power of the slope of a line of sight"),             \
+        NUMBER(#eye ".k3", eye##_k3, nullptr, "0", -2, 2,                                          \
+               "radial distortion of the " #eye                                                    \
+               " camera: factor of the sixth power of the slope of a line of sight"),              \
+        NUMBER(#eye ".p1", eye##_p1, nullptr, "0", -1, 1,                                          \
+               "tangential distortion of the " #eye " camera, as OpenCV's p1"),                    \
+        NUMBER(#eye ".p2", eye##_p2, nullptr, "0", -1, 1,                                          \
+               "tangential distortion of the " #eye " camera, as OpenCV's p2"),                    \
+        NUMBER(#eye ".aspect", eye##_aspect, nullptr, "1", 0.5, 2,                                 \
+               "OpenCV's fy / fx of the " #eye " camera: 1 for square pixels"),                    \
+        NUMBER(#eye ".yaw", eye##_yaw, "deg", "0", -45, 45,                                        \
+               "turn of the " #eye " camera to the right, besides half of eyes.vergence"),         \
+        NUMBER(#eye ".pitch", eye##_pitch, "deg", "0", -45, 45,                                    \
+               "turn of the " #eye " camera downwards"),                                           \
+        NUMBER(#eye ".roll", eye##_roll, "deg", "0", -45, 45,                                      \
+               "turn of the " #eye " camera about its optical axis, clockwise as it looks")
 
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
@@ -121,10 +136,13 @@ eyes_config config_eyes(const vision_config &c)
 
     result.colour = {c.hue, c.hue_tolerance, c.saturation_min, c.saturation_max, c.value_min};
     result.limits = {c.radius_min, c.radius_max, c.coverage_min, c.fill_min, c.roughness};
-    result.rig.left = {c.width,         c.height,  c.left_focal, c.left_centre_u,
-                       c.left_centre_v, c.left_k1, c.left_k2};
-    result.rig.right = {c.width,          c.height,   c.right_focal, c.right_centre_u,
-                        c.right_centre_v, c.right_k1, c.right_k2};
+    result.rig.left = {c.width,       c.height,   c.left_focal, c.left_centre_u, c.left_centre_v,
+                       c.left_k1,     c.left_k2,  c.left_k3,    c.left_p1,       c.left_p2,
+                       c.left_aspect, c.left_yaw, c.left_pitch, c.left_roll};
+    result.rig.right = {c.width,          c.height,    c.right_focal,  c.right_centre_u,
+                        c.right_centre_v, c.right_k1,  c.right_k2,     c.right_k3,
+                        c.right_p1,       c.right_p2,  c.right_aspect, c.right_yaw,
+                        c.right_pitch,    c.right_roll};
     result.rig.vergence = c.vergence;
     result.rig.baseline = c.baseline;
     result.rig.ball_radius = c.ball_radius;

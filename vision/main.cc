@@ -19,6 +19,9 @@
 #include "vision/bench.h"
 #include "vision/config.h"
 #include "vision/pictures/receive_buffer.h"
+#include "vision/rig/calibrate.h"
+#include "vision/rig/from_opencv.h"
+#include "vision/rig/rig_file.h"
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;
@@ -185,6 +188,34 @@ static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
     return code;
 }
 
+/* Until the ball was moved long enough, the pairs end, or a signal comes. */
+static int calibrate(const arguments &given, const vision_config &config, lcm_t *lcm)
+{
+    rig_calibrator learner(config_eyes(config));
+    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &learner);
+    source_state state = SOURCE_OPEN;
+
+    if (!pairs)
+        return 1;
+    log_info("move the ball slowly through both eyes' pictures, near and far, for 30 s");
+    while (!stop_asked && state == SOURCE_OPEN && !learner.done())
+        state = pairs->poll(poll_ms);
+    return learner.finish(given.calibrate, given.draw) ? 1 : 0;
+}
+
+static int print_from_opencv(const arguments &given, const vision_config &config)
+{
+    stereo_rig rig = config_eyes(config).rig;
+    char error[512];
+
+    if (rig_from_opencv(given.opencv, given.n_opencv, &rig, error, sizeof error)) {
+        log_error("%s", error);
+        return 1;
+    }
+    rig_write(rig, "from OpenCV's stereo calibration", stdout);
+    return 0;
+}
+
 static int run_on_bus(const arguments &given, const vision_config &config)
 {
     struct bus_claim *claim = nullptr;
@@ -202,7 +233,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     else if (taken < 0)
         log_error("LCM failed while asking for other vision processes");
     else
-        code = see(given, config, lcm);
+        code = given.calibrate ? calibrate(given, config, lcm) : see(given, config, lcm);
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return code;
@@ -226,6 +257,8 @@ int main(int argc, char **argv)
     /* What OpenCV's back ends have to say of a missing file is said by one line of ours. */
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
+    if (given.n_opencv > 0)
+        return print_from_opencv(given, config);
     if (given.bench)
         return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;
     if (given.show && !show_possible()) {
