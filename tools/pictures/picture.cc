@@ -23,6 +23,7 @@ const char *const picture_rows[] = {"clean",
                                     "large",
                                     "beside smaller ones",
                                     "distorted",
+                                    "not quite round",
                                     "JPEG",
                                     "no ball",
                                     nullptr};
@@ -39,6 +40,7 @@ enum row {
     ROW_LARGE,
     ROW_SMALLER_ONES,
     ROW_DISTORTED,
+    ROW_STRETCHED,
     ROW_JPEG,
     ROW_NO_BALL,
 };
@@ -64,6 +66,8 @@ static camera draw_eye(random_source *random, int row)
         eye.k1 = random_between(random, -0.35, -0.1);
         eye.k2 = random_between(random, 0, 0.1);
     }
+    if (row == ROW_STRETCHED)
+        eye.aspect = random_between(random, 0.92, 1.08);
     return eye;
 }
 
@@ -207,6 +211,7 @@ hard_picture picture_draw(int row, uint64_t index)
         cv::GaussianBlur(picture, picture, {0, 0}, random_between(random, 0.4, 0.9));
     hard_picture made = {expose(random, picture), eye,         colour.hue * pi / 180,
                          row != ROW_NO_BALL,      ball.centre, ball.radius};
+    made.eye.aspect = 1; /* nobody knows */
     if (row == ROW_JPEG)
         through_jpeg(index, &made.bgr);
     return made;

@@ -222,29 +222,29 @@ static bool take_profile(const image_view &image, const pixel_point &edge, doubl
 }
 
 /* The ray's direction on the guessed cone. */
-static direction cone_direction(const outline &guess, const direction &across,
-                                const direction &down, int i)
+static direction cone_direction(const outline &guess, const outline_frame &frame, int i)
 {
-    const double sine = guess.tangent * guess.cosine;
+    const double stretch = guess.wide_cosine * (rays.x[i] * rays.x[i] - rays.y[i] * rays.y[i]) +
+                           guess.wide_sine * 2 * rays.x[i] * rays.y[i];
+    const double sine = guess.tangent * guess.cosine * (1 + stretch);
     const double x = rays.x[i] * sine;
     const double y = rays.y[i] * sine;
 
-    return {guess.axis.x * guess.cosine + across.x * x + down.x * y,
-            guess.axis.y * guess.cosine + across.y * x + down.y * y,
-            guess.axis.z * guess.cosine + across.z * x + down.z * y};
+    return {guess.axis.x * guess.cosine + frame.right.x * x + frame.down.x * y,
+            guess.axis.y * guess.cosine + frame.right.y * x + frame.down.y * y,
+            guess.axis.z * guess.cosine + frame.right.z * x + frame.down.z * y};
 }
 
 void edges_fine(const image_view &image, const colour_table &colours, const camera &eye,
                 const outline &guess, outline_points *points)
 {
-    const direction across = direction_normalised(direction_cross({0, 1, 0}, guess.axis));
-    const direction down = direction_cross(guess.axis, across);
+    const outline_frame frame = outline_axes(guess.axis);
     const pixel_point centre = camera_project(eye, guess.axis);
     /* The outline of a large ball is less sharp, and known less well, in pixels. */
     const double stride = std::fmax(1, guess.tangent * eye.focal / profile_radius);
 
     for (int i = 0; i < OUTLINE_RAYS; i++) {
-        const pixel_point edge = camera_project(eye, cone_direction(guess, across, down, i));
+        const pixel_point edge = camera_project(eye, cone_direction(guess, frame, i));
         const double x = edge.column - centre.column;
         const double y = edge.row - centre.row;
         const double scale = stride / std::sqrt(x * x + y * y);

@@ -13,9 +13,13 @@ static const double least_painted = 0.3; /* of the disc: so much must not be blo
 static const double rough_share = 0.008; /* of the radius: rougher than ball.roughness may be */
 static const double border_share = 0.6;  /* of coverage_min, of an outline that the border cuts */
 static const double leak_max = 0.4;
-static const double leak_reach = 0.08; /* of the radius, beyond the outline */
-static const double leak_least = 4;    /* px */
-static const double clear_share = 0.8; /* of outline and disc */
+static const double leak_reach = 0.08;       /* of the radius, beyond the outline */
+static const double leak_least = 4;          /* px */
+static const double stretch_max = 0.08;      /* of the radius */
+static const double stretch_coverage = 0.75; /* least, with a stretch */
+static const double stretch_from = 0.5;      /* least coverage as round for which it is tried */
+static const double stretch_rough = 0.4;     /* least roughness, of what may be */
+static const double clear_share = 0.8;       /* of outline and disc */
 static const double clear_leak = 0.1;
 
 radius_range judge_radii(const segment_limits &limits, const camera &eye)
@@ -129,6 +133,9 @@ static blob_fault fault_of(const segment_limits &limits, const camera &eye, cons
         return BLOB_TOO_LARGE;
     if (found.coverage < limits.coverage_min || whole < border_share * limits.coverage_min)
         return BLOB_COVERAGE;
+    const double stretch = outline_stretch(found.cone);
+    if (stretch > stretch_max || (stretch > 0 && found.coverage < stretch_coverage))
+        return BLOB_ROUGH;
     if (found.fill < limits.fill_min)
         return BLOB_FILL;
     if (found.cone.rms > roughness_max(limits, found))
@@ -148,8 +155,16 @@ blob_fault judge_blob(const segmenter &work, const image_view &image, const came
     const double off = colour_hue_distance(colour.hue, work.range.hue) / work.range.hue_tolerance;
     const double rough = found->cone.rms / std::max(1e-3, roughness_max(work.limits, *found));
     found->score = found->coverage * found->coverage * found->fill * (1 - found->leak) *
-                   (1 - off * off / 2) * std::max(0.1, 1 - rough / 2) * found->radius;
+                   (1 - off * off / 2) * std::max(0.1, 1 - rough / 2) * found->radius *
+                   (1 - 2 * std::min(0.4, outline_stretch(found->cone)));
     return fault_of(work.limits, eye, *found);
+}
+
+bool judge_stretched(const segmenter &work, const blob &found)
+{
+    return found.coverage >= stretch_from &&
+           (found.coverage < clear_share ||
+            found.cone.rms > stretch_rough * roughness_max(work.limits, found));
 }
 
 bool judge_clear(const blob &found)

@@ -16,6 +16,10 @@ radius_range judge_radii(const segment_limits &limits, const camera &eye);
 blob_fault judge_blob(const segmenter &work, const image_view &image, const camera &eye,
                       const outline_points &points, blob *found);
 
+/* Whether it could be a ball that shows not quite round: much of its outline is seen, not exactly.
+ */
+bool judge_stretched(const segmenter &work, const blob &found);
+
 /* Whether nothing about it is in doubt: no other look could find a better one here. */
 bool judge_clear(const blob &found);
 

@@ -9,6 +9,8 @@
 #include "vision/ball/vote.h"
 
 static const int fine_rounds = 2;
+static const int stretched_rounds = 3;
+static const double stretch_share = 0.12;   /* of the radius: edges so near belong to the ball */
 static const double coarse_tolerance = 2;   /* px: edges to the pixel, and ragged ones */
 static const double coarse_share = 0.5;     /* of coverage_min: less is not worth a close look */
 static const double coarse_relative = 0.02; /* of the radius, where that is more */
@@ -29,18 +31,20 @@ struct scene_part {
     radius_range radii;
 };
 
-/* From an outline known to the pixel to one known to a fraction. */
-static bool sharpen(const scene_part &part, outline *cone, outline_points *points)
+/* From an outline known to the pixel to one known to a fraction; `refine` is one of outline_refine
+ * and outline_refine_stretched. */
+static bool sharpen(const scene_part &part, decltype(outline_refine) refine, int rounds,
+                    outline *cone, outline_points *points)
 {
     const double focal = part.eye.focal;
 
-    for (int round = 0; round < fine_rounds; round++) {
+    for (int round = 0; round < rounds; round++) {
         const double radius = cone->tangent * focal;
         if (!(cone->axis.z > 0.1) || radius > 2 * part.radii.most)
             return false;
         edges_fine(part.image, part.work->colours, part.eye, *cone, points);
-        if (!outline_refine(*points, focal, std::max(fine_tolerance, fine_relative * radius),
-                            std::max(trim_tolerance, trim_relative * radius), cone))
+        if (!refine(*points, focal, std::max(fine_tolerance, fine_relative * radius),
+                    std::max(trim_tolerance, trim_relative * radius), cone))
             return false;
     }
     return true;
@@ -62,27 +66,50 @@ static blob_fault look_quickly(const scene_part &part, const mask_piece &piece, 
     if (!outline_consensus(points, focal, coarse_tolerance, &found->cone) ||
         !worth_sharpening(part, found->cone) ||
         !outline_refine(points, focal, coarse_tolerance, coarse_tolerance, &found->cone) ||
-        !sharpen(part, &found->cone, &points))
+        !sharpen(part, outline_refine, fine_rounds, &found->cone, &points))
         return BLOB_NO_OUTLINE;
     return judge_blob(*part.work, part.image, part.eye, points, found);
 }
 
-/* Takes a cone known to some px over into `found` where it is a better ball. */
+/* Takes `trial` over into `found` where it is a better ball. */
+static void take_better(const scene_part &part, const outline_points &points, blob *trial,
+                        blob_fault *fault, blob *found)
+{
+    const blob_fault now = judge_blob(*part.work, part.image, part.eye, points, trial);
+    const bool first = *fault == BLOB_NO_OUTLINE || (*fault != BLOB_GOOD && now == BLOB_GOOD);
+
+    if (!first &&
+        ((now != BLOB_GOOD && *fault == BLOB_GOOD) || trial->score < better * found->score))
+        return;
+    *fault = now;
+    *found = *trial;
+}
+
+/* A cone known to some px, as a round ball. */
 static void try_cone(const scene_part &part, const outline &cone, blob_fault *fault, blob *found)
 {
     outline_points points;
     blob trial;
 
     trial.cone = cone;
-    if (!sharpen(part, &trial.cone, &points))
-        return;
-    const blob_fault now = judge_blob(*part.work, part.image, part.eye, points, &trial);
-    const bool first = *fault == BLOB_NO_OUTLINE || (*fault != BLOB_GOOD && now == BLOB_GOOD);
-    if (!first &&
-        ((now != BLOB_GOOD && *fault == BLOB_GOOD) || trial.score < better * found->score))
-        return;
-    *fault = now;
-    *found = trial;
+    if (sharpen(part, outline_refine, fine_rounds, &trial.cone, &points))
+        take_better(part, points, &trial, fault, found);
+}
+
+/* What agrees with a cone as a whole, but not exactly, is fitted once more with a stretch. */
+static void try_stretched(const scene_part &part, const outline_ends &ends, blob_fault *fault,
+                          blob *found)
+{
+    const double radius = found->radius;
+    outline_points points;
+    blob trial = *found;
+
+    vote_nearest(ends, found->cone, part.eye.focal, &points);
+    if (outline_refine_stretched(points, part.eye.focal, stretch_share * radius,
+                                 std::max(coarse_tolerance, coarse_relative * radius),
+                                 &trial.cone) &&
+        sharpen(part, outline_refine_stretched, stretched_rounds, &trial.cone, &points))
+        take_better(part, points, &trial, fault, found);
 }
 
 static void look_from(const scene_part &part, const mask_piece &piece, const pixel_point &start,
@@ -104,6 +131,8 @@ static void look_from(const scene_part &part, const mask_piece &piece, const pix
         if (outline_refine(points, part.eye.focal, tolerance, tolerance, &cones[i]))
             try_cone(part, cones[i], fault, found);
     }
+    if (*fault != BLOB_NO_OUTLINE && judge_stretched(*part.work, *found))
+        try_stretched(part, ends, fault, found);
 }
 
 /* A ball that is all surrounded by its own colour. */
@@ -186,7 +215,7 @@ int segment_find(segmenter *work, const image_view &image, const camera &eye,
                                    plausible_share * part.radii.most, pieces);
     for (int i = 0; i < n_pieces; i++) {
         blob_fault fault = look_quickly(part, pieces[i], &found[n]);
-        if (!(fault == BLOB_GOOD && judge_clear(found[n])) &&
+        if (!(fault == BLOB_GOOD && judge_clear(found[n]) && !judge_stretched(*work, found[n])) &&
             !clear_and_larger(found, n, pieces[i]))
             fault = look_thoroughly(part, pieces[i], fault, &found[n]);
         if (fault != BLOB_GOOD)
