@@ -72,7 +72,8 @@ static const struct option_row table[] = {
     NUMBER("ball.fill_min", fill_min, nullptr, "0.5", 0.05, 1,
            "least share of the ball's disc that must have its colour"),
     NUMBER("ball.roughness", roughness, "px", "0.8", 0.05, 10,
-           "greatest rms distance of the seen edge from the outline of a ball"),
+           "greatest rms distance of the seen edge from the outline of a ball; 0.8 % of the radius "
+           "where that is more; less where only a part of the outline is seen"),
     NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
            "greatest difference between the ball's heights in the two pictures, corrected for "
            "vergence"),

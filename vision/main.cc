@@ -109,6 +109,9 @@ static void report(const statistics &counts)
 
     statistics_line(counts, line, sizeof line);
     log_info("%s", line);
+    statistics_unseen(counts, line, sizeof line);
+    if (line[0])
+        log_info("not seen: %s", line);
 }
 
 /* Tells log and service manager from time to time how it goes. */

@@ -52,6 +52,17 @@ bool observer::decode(const image_message &images, image_view *left, image_view 
     return !wrong;
 }
 
+/* Of the eye that was looked at last, which is the one that did not see it. */
+void observer::count_unseen(const stereo_marker &found)
+{
+    if (found.reason != STEREO_NOT_IN_RIGHT && found.reason != STEREO_NOT_IN_LEFT)
+        return;
+    if (eyes_.work.n_refused == 0)
+        counts_.no_colour++;
+    else
+        counts_.faults[eyes_.work.refused[0].fault]++;
+}
+
 void observer::look(const image_message &images, reach_marker_t *marker)
 {
     image_view left;
@@ -66,6 +77,7 @@ void observer::look(const image_message &images, reach_marker_t *marker)
     marker->compute_us = statistics_thread_us() - start;
     time_histogram_add(&counts_.look, marker->compute_us);
     counts_.windows += eyes_.used_window;
+    count_unseen(found);
     marker->seen = found.reason == STEREO_SEEN;
     marker->reason = static_cast<int8_t>(found.reason);
     marker->u_right = found.u_right;

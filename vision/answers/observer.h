@@ -41,6 +41,7 @@ private:
     bool too_old(const incoming_pair &pair) const;
     bool decode(const image_message &images, image_view *left, image_view *right);
     void look(const image_message &images, reach_marker_t *marker);
+    void count_unseen(const stereo_marker &found);
     void complain(const char *what, const char *reason);
 
     eyes eyes_;

@@ -27,6 +27,7 @@ struct eyes {
     track right;
     int64_t newest;   /* newest stamp so far, 0 = none; us */
     int in_windows;   /* pairs since whole pictures were looked at */
+    bool looked_left; /* the eye that was looked at last, to which work.refused belongs */
     bool used_window; /* the newest look was settled in windows */
     blob left_blob;   /* what the newest marker was made of, where it was seen */
     blob right_blob;

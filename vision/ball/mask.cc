@@ -61,6 +61,7 @@ int mask_find(mask_work *work, const image_view &image, const colour_table &colo
 
     work->region = region;
     work->step = step;
+    work->left_out = mask_piece();
     make_mask(work, image, colours);
     const int labels = cv::connectedComponentsWithStats(work->mask, work->labels, work->stats,
                                                         work->centroids, 4, CV_16U, cv::CCL_WU);
@@ -68,6 +69,8 @@ int mask_find(mask_work *work, const image_view &image, const colour_table &colo
         const mask_piece piece = piece_at(*work, label);
         if (piece.area >= area_min && piece.width <= side_max && piece.height <= side_max)
             n = insert(pieces, n, piece);
+        else if (piece.area > work->left_out.area)
+            work->left_out = piece;
     }
     return n;
 }

@@ -10,14 +10,6 @@
 
 enum { MASK_PIECES = 10, MASK_STARTS = 4 };
 
-/* Kept so that pairs do not allocate. */
-struct mask_work {
-    cv::Mat mask, labels, stats, centroids; /* one element for each pixel that was looked at */
-    cv::Mat closed, depth;
-    image_region region;
-    int step; /* px between the pixels looked at */
-};
-
 /* A connected piece of the mask, in full-resolution pixels. */
 struct mask_piece {
     pixel_point centre;
@@ -25,6 +17,15 @@ struct mask_piece {
     double height;
     double area;
     cv::Rect box; /* in the mask */
+};
+
+/* Kept so that pairs do not allocate. */
+struct mask_work {
+    cv::Mat mask, labels, stats, centroids; /* one element for each pixel that was looked at */
+    cv::Mat closed, depth;
+    image_region region;
+    int step;            /* px between the pixels looked at */
+    mask_piece left_out; /* the largest that mask_find did not take for its size; area 0: none */
 };
 
 /* Looks in the region, which lies inside the picture, at every `step`-th pixel of every `step`-th

@@ -20,6 +20,7 @@ static const double trim_tolerance = 0.35; /* px: closer than this no edge point
 static const double trim_relative = 0.0032;
 static const int edge_margin = 12;        /* px around a piece: its rim can have lost its colour */
 static const double plausible_share = 3;  /* of radius_max: clutter can join the ball */
+static const double speck = 60;           /* px^2: less of the colour is noise */
 static const double better = 1.1;         /* times the score: a second look must be worth it */
 static const double reach_of_piece = 1.5; /* times its longer side: prints part a ball */
 
@@ -191,10 +192,24 @@ static void refuse(segmenter *work, blob_fault fault, const mask_piece &piece, c
     if (work->n_refused == SEGMENT_REFUSED)
         return;
     refused_blob *const place = &work->refused[work->n_refused++];
-    if (fault == BLOB_NO_OUTLINE)
+    if (fault == BLOB_NO_OUTLINE || found.radius <= 0)
         *place = {fault, piece.centre, std::max(piece.width, piece.height) / 2};
     else
         *place = {fault, found.pixel, found.radius};
+}
+
+const char *blob_fault_text(blob_fault fault)
+{
+    static const char *const texts[BLOB_FAULTS] = {"taken",
+                                                   "no circle fits its edge",
+                                                   "too small (ball.radius_min)",
+                                                   "too large (ball.radius_max)",
+                                                   "too little outline (ball.coverage_min)",
+                                                   "too little colour (ball.fill_min)",
+                                                   "edge too rough (ball.roughness)",
+                                                   "colour goes on beyond it"};
+
+    return texts[fault];
 }
 
 int segment_find(segmenter *work, const image_view &image, const camera &eye,
@@ -213,6 +228,9 @@ int segment_find(segmenter *work, const image_view &image, const camera &eye,
     const int n_pieces = mask_find(&work->mask, image, work->colours, clipped, step,
                                    0.5 * part.radii.least * part.radii.least,
                                    plausible_share * part.radii.most, pieces);
+    if (n_pieces == 0 && work->mask.left_out.area >= speck)
+        refuse(work, work->mask.left_out.width > part.radii.most ? BLOB_TOO_LARGE : BLOB_TOO_SMALL,
+               work->mask.left_out, blob());
     for (int i = 0; i < n_pieces; i++) {
         blob_fault fault = look_quickly(part, pieces[i], &found[n]);
         if (!(fault == BLOB_GOOD && judge_clear(found[n]) && !judge_stretched(*work, found[n])) &&

@@ -58,6 +58,9 @@ struct segmenter {
     int n_refused;
 };
 
+/* What a person is told of it: "too little of its outline is seen". */
+const char *blob_fault_text(blob_fault fault);
+
 /* Looks in the region at every `step`-th pixel of every `step`-th row, then closely at what it
  * found. Writes up to SEGMENT_CANDIDATES blobs, the most ball-like first; returns how many. */
 int segment_find(segmenter *work, const image_view &image, const camera &eye,

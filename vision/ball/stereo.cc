@@ -88,6 +88,15 @@ stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &
     return STEREO_SEEN;
 }
 
+/* Whether the lines of sight meet behind the eyes. */
+static bool meet_behind(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    const sights seen = sights_of(rig, left, right);
+
+    return turned(seen.left, rig.vergence / 2).across <
+           turned(seen.right, -rig.vergence / 2).across;
+}
+
 static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
 {
     const sights seen = sights_of(rig, left, right);
@@ -118,11 +127,11 @@ stereo_marker stereo_match(const stereo_rig &rig, const blob *left, int n_left, 
                 continue;
             seen = reason == STEREO_SEEN;
             best = score;
-            marker = stereo_marker();
+            marker = seen ? marker_of(rig, left[i], right[j]) : stereo_marker();
             marker.reason = reason;
+            marker.meets_behind = meet_behind(rig, left[i], right[j]);
             if (!seen)
                 continue;
-            marker = marker_of(rig, left[i], right[j]);
             *left_index = i;
             *right_index = j;
         }

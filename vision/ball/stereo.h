@@ -40,6 +40,9 @@ struct stereo_marker {
     double v_right = 0;   /* px below it */
     double disparity = 0; /* u_left - u_right, px */
     double radius = 0;    /* px, right eye */
+    /* The lines of sight to what was found in both eyes, also where it was refused, part ahead and
+     * meet behind: as if the eyes were swapped. */
+    bool meets_behind = false;
 };
 
 /* How much higher the left eye sees a thing than the right, where both directions (the cameras' own
