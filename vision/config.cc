@@ -50,6 +50,9 @@ static const struct option_row table[] = {
     NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,
            "angle by which the optical axes of the two eyes turn towards each other"),
     NUMBER("eyes.baseline", baseline, "m", "0.09", 0.001, 2, "distance between the two eyes"),
+    NUMBER("eyes.most_apart", most_apart, "s", "0.02", 0, 1,
+           "greatest difference between the two pictures' own time stamps, where they have some; "
+           "pairs further apart are unusable; 0 = not checked"),
     NUMBER("ball.hue", hue, "deg", "120", 0, 360,
            "middle of the ball's hue: 0 = red, 120 = green, 240 = blue"),
     NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180,
@@ -154,6 +157,7 @@ eyes_config config_eyes(const vision_config &c)
     result.window = {c.window_margin, c.window_growth, static_cast<int64_t>(c.memory * 1e6)};
     result.window_step = c.window_step;
     result.whole_step = c.whole_step;
+    result.most_apart = static_cast<int64_t>(c.most_apart * 1e6);
     result.recheck = c.recheck;
     return result;
 }

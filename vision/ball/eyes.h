@@ -15,9 +15,10 @@ struct eyes_config {
     segment_limits limits;
     stereo_rig rig;
     track_window window;
-    int window_step; /* px between the pixels looked at in a window */
-    int whole_step;  /* px between the pixels looked at in whole pictures */
-    int recheck;     /* after this many pairs in windows the whole pictures are looked at once */
+    int window_step;    /* px between the pixels looked at in a window */
+    int whole_step;     /* px between the pixels looked at in whole pictures */
+    int64_t most_apart; /* between the eyes' own stamps, 0 = not checked; us */
+    int recheck;        /* after this many pairs in windows the whole pictures are looked at once */
 };
 
 struct eyes {

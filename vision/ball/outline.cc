@@ -159,6 +159,12 @@ bool outline_consensus(const outline_points &points, double focal, double tolera
     return best > 0;
 }
 
+static bool agrees(const outline_points &points, int i, const outline &cone, double focal,
+                   double tolerance)
+{
+    return points.valid[i] && std::fabs(outline_distance(cone, points.view[i], focal)) <= tolerance;
+}
+
 /* Sums of the normal equations of m . d = 1. */
 struct normal_equations {
     direction row_x, row_y, row_z; /* sum of d d' */
@@ -210,7 +216,7 @@ static bool fit(const outline_points &points, double focal, double tolerance, ou
 
     for (int i = 0; i < OUTLINE_RAYS; i++) {
         const direction &d = points.view[i];
-        if (!points.valid[i] || std::fabs(outline_distance(*cone, d, focal)) > tolerance)
+        if (!agrees(points, i, *cone, focal, tolerance))
             continue;
         accumulate(&sums, {direction_dot(d, x), direction_dot(d, y), direction_dot(d, z)});
         n++;
@@ -234,7 +240,7 @@ static bool fit_stretched(const outline_points &points, double focal, double tol
 
     for (int i = 0; i < OUTLINE_RAYS; i++) {
         const direction &d = points.view[i];
-        if (!points.valid[i] || std::fabs(outline_distance(*cone, d, focal)) > tolerance)
+        if (!agrees(points, i, *cone, focal, tolerance))
             continue;
         const pixel_point twice = twice_angle(frame, d);
         const cv::Vec<double, 5> row(direction_dot(d, frame.right) * scale,

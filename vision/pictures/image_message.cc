@@ -106,7 +106,7 @@ static const char *check_image(encoded_image *image, int32_t stride, image_messa
 /* `is_eye`: else it is passed over. */
 static const char *take_image(reader *in, bool is_eye, encoded_image *image, image_message *message)
 {
-    take_int64(in); /* the pair's own stamp counts */
+    image->utime = take_int64(in);
     image->width = take_int32(in);
     image->height = take_int32(in);
     const int32_t stride = take_int32(in);

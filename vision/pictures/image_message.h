@@ -20,6 +20,7 @@ struct encoded_image {
     int height = 0;    /* px, 1 .. IMAGE_MESSAGE_MAX_SIDE */
     size_t stride = 0; /* bytes from row to row; 0 in compressed formats */
     int32_t format = 0;
+    int64_t utime = 0; /* the eye's own exposure, 0 = not said; us */
 };
 
 enum { IMAGE_MESSAGE_MAX_SIDE = 16384, IMAGE_MESSAGE_MAX_IMAGES = 16 };
