@@ -186,6 +186,10 @@ static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
     notify_send("READY=1");
     int code = serve(pairs.get(), lcm, given.cameras[0] || given.videos[0], seer.counts());
     report(seer.counts());
+    if (given.videos[0] && statistics_nothing_usable(seer.counts())) {
+        log_error("not one pair of frames could be used: see the warnings above");
+        code = 1;
+    }
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
     return code;

@@ -74,6 +74,11 @@ void statistics_unseen(const statistics &counts, char *line, size_t size)
         append(line, size, reasons[i], counts.reasons[i]);
 }
 
+bool statistics_nothing_usable(const statistics &counts)
+{
+    return counts.pairs + counts.malformed > 0 && counts.pairs == counts.reasons[STEREO_UNUSABLE];
+}
+
 static void times_json(const char *name, const time_histogram &times, FILE *out)
 {
     fprintf(out, "\"%s\": {\"p50\": %.1f, \"p999\": %.1f, \"max\": %.1f}", name,

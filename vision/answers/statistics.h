@@ -41,6 +41,9 @@ void statistics_line(const statistics &counts, char *line, size_t size);
 /* Why the ball was not seen, in words and counts. Empty when it always was. */
 void statistics_unseen(const statistics &counts, char *line, size_t size);
 
+/* Whether pairs came and not one of them could be looked at. */
+bool statistics_nothing_usable(const statistics &counts);
+
 /* One JSON object. */
 void statistics_json(const statistics &counts, FILE *out);
 

@@ -238,6 +238,18 @@ START_TEST(what_was_refused_is_named)
 }
 END_TEST
 
+START_TEST(no_usable_pair_at_all_is_noticed)
+{
+    statistics counts;
+
+    ck_assert(!statistics_nothing_usable(counts));
+    counts.pairs = counts.reasons[STEREO_UNUSABLE] = 3;
+    ck_assert(statistics_nothing_usable(counts));
+    counts.pairs++;
+    ck_assert(!statistics_nothing_usable(counts));
+}
+END_TEST
+
 START_TEST(nothing_is_seen_where_nothing_is)
 {
     const scene_eyes rig = scene_default_eyes();
@@ -265,6 +277,7 @@ int main()
         ball_cut_by_the_rim_needs_enough_outline,
         other_greenish_things_are_not_the_ball,
         what_was_refused_is_named,
+        no_usable_pair_at_all_is_noticed,
         nothing_is_seen_where_nothing_is,
     };
 
