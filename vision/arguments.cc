@@ -19,14 +19,22 @@ static const argument_row rows[] = {
         "no bus: find the ball in one stored pair (pictures side by side) and measure the "
         "time it takes"),
     ARGUMENT_TEXT("draw", 0, "FILE", arguments, draw,
-                  "with --bench: write the pair with what was found"),
+                  "with --bench: write the pair with what was found; with --calibrate: write the "
+                  "sightings that were used"),
+    ARGUMENT_TEXT("calibrate", 0, "FILE", arguments, calibrate,
+                  "learn how the eyes stand: move the ball about for 30 s; writes the YAML file"),
+    ARGUMENT_LIST("from-opencv", 0, "FILE", arguments, opencv, n_opencv, 2,
+                  "no bus: print the YAML of a rig that OpenCV's stereo calibration measured "
+                  "(M1, D1, M2, D2, R, T; may be given twice, as they often are in two files)"),
     ARGUMENT_END,
 };
 
 static const command_line line = {
     "reach-vision",
     "reach-vision [--config FILE] [--set NAME=VALUE]... [--url URL] [--stats FILE] [--show]\n"
-    "                    [--cameras LEFT RIGHT | --videos LEFT RIGHT | --bench PAIR [--draw FILE]]",
+    "                    [--cameras LEFT RIGHT | --videos LEFT RIGHT | --bench PAIR | "
+    "--from-opencv FILE]\n"
+    "                    [--calibrate FILE] [--draw FILE]",
     "Finds the ball in pairs of pictures and says where it is on channel MARKER.\n"
     "Pairs come from channel STEREO_IMAGES unless cameras or videos are named.",
     rows,
@@ -44,7 +52,10 @@ int arguments_parse(int argc, char **argv, arguments *given)
     if ((given->cameras[0] != nullptr) + (given->videos[0] != nullptr) + (given->bench != nullptr) >
         1)
         return command_line_wrong(&line, "--cameras, --videos and --bench exclude each other");
-    if (given->draw && !given->bench)
-        return command_line_wrong(&line, "--draw goes with --bench");
+    if (given->draw && !given->bench && !given->calibrate)
+        return command_line_wrong(&line, "--draw goes with --bench or --calibrate");
+    if (given->calibrate && (given->bench || given->n_opencv > 0))
+        return command_line_wrong(&line,
+                                  "--calibrate wants pairs: from the bus, --cameras, --videos");
     return -1;
 }

@@ -11,6 +11,9 @@ struct arguments {
     const char *stats = nullptr;
     const char *bench = nullptr;
     const char *draw = nullptr;
+    const char *calibrate = nullptr;
+    const char *opencv[2] = {nullptr, nullptr};
+    int n_opencv = 0;
     const char *cameras[2] = {nullptr, nullptr}; /* left and right */
     const char *videos[2] = {nullptr, nullptr};
     bool show = false;

@@ -71,6 +71,12 @@ int bench_run(const char *path, const eyes_config &config, const char *drawing)
             printf("%-5s coverage %.2f fill %.2f rms %.2f px score %.2f\n",
                    found == &who.left_blob ? "left" : "right", found->coverage, found->fill,
                    found->cone.rms, found->score);
+    for (int i = 0; i < who.work.n_refused; i++) {
+        const refused_blob &one = who.work.refused[i];
+        printf("%s eye, column %.0f row %.0f, radius %.0f px: %s\n",
+               who.looked_left ? "left" : "right", one.pixel.column, one.pixel.row, one.radius,
+               blob_fault_text(one.fault));
+    }
     measure("whole", config, 0, both);
     if (seen)
         measure("window", config, rounds + 1, both);

@@ -25,7 +25,22 @@
                " camera: factor of the squared slope of a line of sight"),                         \
         NUMBER(#eye ".k2", eye##_k2, nullptr, "0", -2, 2,                                          \
                "radial distortion of the " #eye                                                    \
-               " camera: factor of the fourth power of the slope of a line of sight")
+               " camera: factor of the fourth power of the slope of a line of sight"),             \
+        NUMBER(#eye ".k3", eye##_k3, nullptr, "0", -2, 2,                                          \
+               "radial distortion of the " #eye                                                    \
+               " camera: factor of the sixth power of the slope of a line of sight"),              \
+        NUMBER(#eye ".p1", eye##_p1, nullptr, "0", -1, 1,                                          \
+               "tangential distortion of the " #eye " camera, as OpenCV's p1"),                    \
+        NUMBER(#eye ".p2", eye##_p2, nullptr, "0", -1, 1,                                          \
+               "tangential distortion of the " #eye " camera, as OpenCV's p2"),                    \
+        NUMBER(#eye ".aspect", eye##_aspect, nullptr, "1", 0.5, 2,                                 \
+               "OpenCV's fy / fx of the " #eye " camera: 1 for square pixels"),                    \
+        NUMBER(#eye ".yaw", eye##_yaw, "deg", "0", -45, 45,                                        \
+               "turn of the " #eye " camera to the right, besides half of eyes.vergence"),         \
+        NUMBER(#eye ".pitch", eye##_pitch, "deg", "0", -45, 45,                                    \
+               "turn of the " #eye " camera downwards"),                                           \
+        NUMBER(#eye ".roll", eye##_roll, "deg", "0", -45, 45,                                      \
+               "turn of the " #eye " camera about its optical axis, clockwise as it looks")
 
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
@@ -35,6 +50,9 @@ static const struct option_row table[] = {
     NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,
            "angle by which the optical axes of the two eyes turn towards each other"),
     NUMBER("eyes.baseline", baseline, "m", "0.09", 0.001, 2, "distance between the two eyes"),
+    NUMBER("eyes.most_apart", most_apart, "s", "0.02", 0, 1,
+           "greatest difference between the two pictures' own time stamps, where they have some; "
+           "pairs further apart are unusable; 0 = not checked"),
     NUMBER("ball.hue", hue, "deg", "120", 0, 360,
            "middle of the ball's hue: 0 = red, 120 = green, 240 = blue"),
     NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180,
@@ -48,16 +66,17 @@ static const struct option_row table[] = {
     NUMBER("ball.radius", ball_radius, "m", "0", 0, 1,
            "the ball's true radius; a thing of another size is refused; 0 = not known, not "
            "checked"),
-    NUMBER("ball.radius_min", radius_min, "px", "8", 4, 1000,
-           "smallest apparent radius of the ball in a picture"),
-    NUMBER("ball.radius_max", radius_max, "px", "110", 8, 2000,
-           "largest apparent radius of the ball in a picture"),
+    NUMBER("ball.radius_min", radius_min, "deg", "0.35", 0.05, 80,
+           "smallest apparent radius of the ball: half the angle under which an eye sees it"),
+    NUMBER("ball.radius_max", radius_max, "deg", "40", 0.1, 80,
+           "largest apparent radius of the ball: half the angle under which an eye sees it"),
     NUMBER("ball.coverage_min", coverage_min, nullptr, "0.5", 0.15, 1,
            "least share of the ball's outline that must be seen"),
     NUMBER("ball.fill_min", fill_min, nullptr, "0.5", 0.05, 1,
            "least share of the ball's disc that must have its colour"),
     NUMBER("ball.roughness", roughness, "px", "0.8", 0.05, 10,
-           "greatest rms distance of the seen edge from the outline of a ball"),
+           "greatest rms distance of the seen edge from the outline of a ball; 0.8 % of the radius "
+           "where that is more; less where only a part of the outline is seen"),
     NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
            "greatest difference between the ball's heights in the two pictures, corrected for "
            "vergence"),
@@ -121,10 +140,13 @@ eyes_config config_eyes(const vision_config &c)
 
     result.colour = {c.hue, c.hue_tolerance, c.saturation_min, c.saturation_max, c.value_min};
     result.limits = {c.radius_min, c.radius_max, c.coverage_min, c.fill_min, c.roughness};
-    result.rig.left = {c.width,         c.height,  c.left_focal, c.left_centre_u,
-                       c.left_centre_v, c.left_k1, c.left_k2};
-    result.rig.right = {c.width,          c.height,   c.right_focal, c.right_centre_u,
-                        c.right_centre_v, c.right_k1, c.right_k2};
+    result.rig.left = {c.width,       c.height,   c.left_focal, c.left_centre_u, c.left_centre_v,
+                       c.left_k1,     c.left_k2,  c.left_k3,    c.left_p1,       c.left_p2,
+                       c.left_aspect, c.left_yaw, c.left_pitch, c.left_roll};
+    result.rig.right = {c.width,          c.height,    c.right_focal,  c.right_centre_u,
+                        c.right_centre_v, c.right_k1,  c.right_k2,     c.right_k3,
+                        c.right_p1,       c.right_p2,  c.right_aspect, c.right_yaw,
+                        c.right_pitch,    c.right_roll};
     result.rig.vergence = c.vergence;
     result.rig.baseline = c.baseline;
     result.rig.ball_radius = c.ball_radius;
@@ -135,6 +157,7 @@ eyes_config config_eyes(const vision_config &c)
     result.window = {c.window_margin, c.window_growth, static_cast<int64_t>(c.memory * 1e6)};
     result.window_step = c.window_step;
     result.whole_step = c.whole_step;
+    result.most_apart = static_cast<int64_t>(c.most_apart * 1e6);
     result.recheck = c.recheck;
     return result;
 }

@@ -11,8 +11,10 @@
 struct vision_config {
     int width, height;
     double left_focal, left_centre_u, left_centre_v, left_k1, left_k2;
+    double left_k3, left_p1, left_p2, left_aspect, left_yaw, left_pitch, left_roll;
     double right_focal, right_centre_u, right_centre_v, right_k1, right_k2;
-    double vergence, baseline;
+    double right_k3, right_p1, right_p2, right_aspect, right_yaw, right_pitch, right_roll;
+    double vergence, baseline, most_apart;
     double hue, hue_tolerance, saturation_min, saturation_max, value_min;
     double ball_radius, radius_min, radius_max, coverage_min, fill_min, roughness;
     double height_tolerance, size_tolerance, disparity_min, disparity_max;

@@ -20,6 +20,9 @@
 #include "vision/bench.h"
 #include "vision/config.h"
 #include "vision/pictures/receive_buffer.h"
+#include "vision/rig/calibrate.h"
+#include "vision/rig/from_opencv.h"
+#include "vision/rig/rig_file.h"
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;
@@ -107,6 +110,9 @@ static void report(const statistics &counts)
 
     statistics_line(counts, line, sizeof line);
     log_info("%s", line);
+    statistics_unseen(counts, line, sizeof line);
+    if (line[0])
+        log_info("not seen: %s", line);
 }
 
 /* Tells log and service manager from time to time how it goes. */
@@ -186,9 +192,41 @@ static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
     notify_send("READY=1");
     int code = serve(pairs.get(), lcm, given.cameras[0] || given.videos[0], seer.counts());
     report(seer.counts());
+    if (given.videos[0] && statistics_nothing_usable(seer.counts())) {
+        log_error("not one pair of frames could be used: see the warnings above");
+        code = 1;
+    }
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
     return code;
+}
+
+/* Until the ball was moved long enough, the pairs end, or a signal comes. */
+static int calibrate(const arguments &given, const vision_config &config, lcm_t *lcm)
+{
+    rig_calibrator learner(config_eyes(config));
+    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &learner);
+    source_state state = SOURCE_OPEN;
+
+    if (!pairs)
+        return 1;
+    log_info("move the ball slowly through both eyes' pictures, near and far, for 30 s");
+    while (!stop_asked && state == SOURCE_OPEN && !learner.done())
+        state = pairs->poll(poll_ms);
+    return learner.finish(given.calibrate, given.draw) ? 1 : 0;
+}
+
+static int print_from_opencv(const arguments &given, const vision_config &config)
+{
+    stereo_rig rig = config_eyes(config).rig;
+    char error[512];
+
+    if (rig_from_opencv(given.opencv, given.n_opencv, &rig, error, sizeof error)) {
+        log_error("%s", error);
+        return 1;
+    }
+    rig_write(rig, "from OpenCV's stereo calibration", stdout);
+    return 0;
 }
 
 static int run_on_bus(const arguments &given, const vision_config &config)
@@ -208,7 +246,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     else if (taken < 0)
         log_error("LCM failed while asking for other vision processes");
     else
-        code = see(given, config, lcm);
+        code = given.calibrate ? calibrate(given, config, lcm) : see(given, config, lcm);
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return code;
@@ -232,12 +270,18 @@ int main(int argc, char **argv)
     /* What OpenCV's back ends have to say of a missing file is said by one line of ours. */
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
+    if (given.n_opencv > 0)
+        return print_from_opencv(given, config);
     if (given.bench)
         return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;
     if (given.show && !show_possible()) {
         log_error("--show: no display (DISPLAY and WAYLAND_DISPLAY are not set)");
         return 1;
     }
+    if (config.ball_radius <= 0)
+        log_warning(
+            "ball.radius is not set: a thing of the ball's colour but of another size can be "
+            "taken for it; set the true radius in metres");
     catch_signals();
     receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
                          6);

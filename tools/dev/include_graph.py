@@ -28,6 +28,7 @@ MAY_USE = {
     "vision": {"common"},
     "tools": {"common", "learner"},
     "tools/bench": {"common", "learner", "daemon", "tools"},  # it measures a tick without the bus
+    "tools/pictures": {"common", "vision", "tools"},  # it lets vision find the ball
 }
 TOPS = [path for path in MAY_USE if "/" not in path]
 INCLUDE = re.compile(r'\s*#\s*include\s*(["<])([^">]+)[">]')

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import body_accuracy
+from . import body_accuracy, vision_accuracy
 from .body_studies import body_studies
 from .command_line import Parser
 from .curves import run as curves
@@ -85,7 +85,10 @@ def run(options: argparse.Namespace) -> list[dict]:
 def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
     parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
     parser.add_argument(
-        "--draws", type=int, help="draws of every study; default 5, of a body 10, or 2 with --quick"
+        "--draws",
+        type=int,
+        help="draws of every study; default 5, of a body 10, or 2 with --quick; pictures of each"
+        f" kind; default {vision_accuracy.COUNT}, or {vision_accuracy.QUICK_COUNT} with --quick",
     )
     parser.add_argument(
         "--quick",
@@ -95,11 +98,12 @@ def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--only",
         nargs="+",
-        choices=names + bodies,
+        choices=[*names, *bodies, vision_accuracy.STUDY],
         metavar="STUDY",
         default=[],
         help=f"run only these studies, of {', '.join(names)}; or those of experts"
-        f" on a body: all ({bodies[0]}), or of {', '.join(bodies[1:])}",
+        f" on a body: all ({bodies[0]}), or of {', '.join(bodies[1:])}; or hard pictures"
+        f" for reach-vision: {vision_accuracy.STUDY}",
     )
     parser.add_argument(
         "--curves",
@@ -133,11 +137,16 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     bodies = ["body", *(study.name for study in body_studies())]
     parser = _parser([study.name for study in studies(True)], bodies)
     options = parser.parse_args(arguments)
+    options.vision = options.only == [vision_accuracy.STUDY]
+    if vision_accuracy.STUDY in options.only and not options.vision:
+        parser.error(f"{vision_accuracy.STUDY} runs on its own")
     options.body = any(name in bodies for name in options.only)
     if options.body and not all(name in bodies for name in options.only):
         parser.error("studies of a body run on their own")
     if options.curves and (options.only or options.param):
         parser.error("--curves has no studies and no parameters to choose")
+    if options.draws is None and options.vision:
+        options.draws = vision_accuracy.QUICK_COUNT if options.quick else vision_accuracy.COUNT
     if options.draws is None:
         options.draws = (2 if options.quick else 10) if options.body else 5
     if options.draws < 1 or options.jobs < 1:
@@ -151,11 +160,17 @@ def main(arguments: list[str] | None = None) -> int:
         if options.curves:
             print(f"accuracy: {curves.run(options)} shows them, curves.json beside it has them")
             return 0
-        (body_accuracy.run if options.body else run)(options)
+        if options.vision:
+            vision_accuracy.run(options)
+        else:
+            (body_accuracy.run if options.body else run)(options)
     except (EvaluationError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)
         return 1
-    name, numbers = ("body.md", "body.json") if options.body else ("table.md", "accuracy.json")
+    name, numbers = ("table.md", "accuracy.json")
+    if options.body or options.vision:
+        study = "body" if options.body else vision_accuracy.STUDY
+        name, numbers = f"{study}.md", f"{study}.json"
     print((options.out / name).read_text(), end="")
     print(f"accuracy: {options.out}/{numbers} has every number")
     return 0

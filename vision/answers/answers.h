@@ -22,6 +22,9 @@ struct answers {
  * alone is not enough: a simulator that starts anew uses its stamps again. */
 uint64_t answers_content(const image_message &pair);
 
+/* The same of one eye's picture. */
+uint64_t answers_content_of(const encoded_image &image);
+
 /* The answer once given to this pair, or nullptr. */
 const reach_marker_t *answers_find(const answers &known, int64_t utime, uint64_t content);
 

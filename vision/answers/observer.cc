@@ -39,17 +39,39 @@ bool observer::too_old(const incoming_pair &pair) const
            std::llabs(bus_utime() - pair.images.utime) < live_within;
 }
 
+/* Whether the eyes' own stamps, where there are any, are of one exposure. */
+bool observer::too_far_apart(const image_message &images) const
+{
+    const int64_t most = eyes_.config.most_apart;
+
+    return most > 0 && images.left.utime > 0 && images.right.utime > 0 &&
+           std::llabs(images.left.utime - images.right.utime) > most;
+}
+
 bool observer::decode(const image_message &images, image_view *left, image_view *right)
 {
     const double start = statistics_thread_us();
     const char *wrong = right_.decode(images.right, eyes_.config.rig.right, right);
 
+    if (too_far_apart(images))
+        wrong = "the eyes' stamps are further apart than eyes.most_apart";
     if (!wrong)
         wrong = left_.decode(images.left, eyes_.config.rig.left, left);
     time_histogram_add(&counts_.decode, statistics_thread_us() - start);
     if (wrong)
         complain("image unusable", wrong);
     return !wrong;
+}
+
+/* Of the eye that was looked at last, which is the one that did not see it. */
+void observer::count_unseen(const stereo_marker &found)
+{
+    if (found.reason != STEREO_NOT_IN_RIGHT && found.reason != STEREO_NOT_IN_LEFT)
+        return;
+    if (eyes_.work.n_refused == 0)
+        counts_.no_colour++;
+    else
+        counts_.faults[eyes_.work.refused[0].fault]++;
 }
 
 void observer::look(const image_message &images, reach_marker_t *marker)
@@ -66,6 +88,10 @@ void observer::look(const image_message &images, reach_marker_t *marker)
     marker->compute_us = statistics_thread_us() - start;
     time_histogram_add(&counts_.look, marker->compute_us);
     counts_.windows += eyes_.used_window;
+    count_unseen(found);
+    const char *const doubt = doubts_add(&doubts_, images, found);
+    if (doubt)
+        complain("in doubt", doubt);
     marker->seen = found.reason == STEREO_SEEN;
     marker->reason = static_cast<int8_t>(found.reason);
     marker->u_right = found.u_right;

@@ -6,6 +6,7 @@
 #include <reach_marker_t.h>
 
 #include "vision/answers/answers.h"
+#include "vision/answers/doubts.h"
 #include "vision/answers/statistics.h"
 #include "vision/ball/eyes.h"
 #include "vision/pictures/decode.h"
@@ -39,8 +40,10 @@ public:
 
 private:
     bool too_old(const incoming_pair &pair) const;
+    bool too_far_apart(const image_message &images) const;
     bool decode(const image_message &images, image_view *left, image_view *right);
     void look(const image_message &images, reach_marker_t *marker);
+    void count_unseen(const stereo_marker &found);
     void complain(const char *what, const char *reason);
 
     eyes eyes_;
@@ -48,6 +51,7 @@ private:
     decoder right_;
     answers answers_;
     statistics counts_;
+    doubts doubts_;
     marker_receiver *receiver_;
     int64_t drop_after_us_;
     int64_t seq_ = 0;

@@ -7,6 +7,7 @@
 
 static const char title[] = "reachd vision";
 static const cv::Scalar found_colour(0, 0, 255);
+static const cv::Scalar refused_colour(0, 200, 255);
 static const cv::Scalar text_colour(255, 255, 255);
 static const int fraction_bits = 4; /* OpenCV draws to fractions of a pixel in fixed point */
 
@@ -38,6 +39,18 @@ static void draw_blob(cv::Mat *picture, const blob &found)
                    cv::MARKER_CROSS, 9);
 }
 
+/* What was refused in the eye that was looked at last. */
+static void draw_refused(cv::Mat *picture, const segmenter &work)
+{
+    for (int i = 0; i < work.n_refused; i++) {
+        const refused_blob &one = work.refused[i];
+        const cv::Point centre(static_cast<int>(one.pixel.column), static_cast<int>(one.pixel.row));
+        cv::circle(*picture, centre, static_cast<int>(one.radius), refused_colour, 1, cv::LINE_AA);
+        cv::putText(*picture, blob_fault_text(one.fault), centre, cv::FONT_HERSHEY_SIMPLEX, 0.4,
+                    text_colour, 1, cv::LINE_AA);
+    }
+}
+
 cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who, bool seen,
                   const char *caption)
 {
@@ -49,6 +62,7 @@ cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &w
         draw_blob(&left_picture, who.left_blob);
         draw_blob(&right_picture, who.right_blob);
     }
+    draw_refused(who.looked_left ? &left_picture : &right_picture, who.work);
     cv::hconcat(left_picture, right_picture, both);
     cv::putText(both, caption, {8, both.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.5, text_colour, 1,
                 cv::LINE_AA);

@@ -1,7 +1,10 @@
 #include "vision/answers/statistics.h"
 
 #include <cinttypes>
+#include <cstring>
 #include <ctime>
+
+#include "vision/ball/stereo.h"
 
 static const size_t longest = 20000; /* us */
 
@@ -42,6 +45,38 @@ void statistics_line(const statistics &counts, char *line, size_t size)
              counts.reasons[STATISTICS_REASONS - 1], counts.malformed,
              time_histogram_quantile(counts.look, 0.5), time_histogram_quantile(counts.look, 0.999),
              counts.look.largest);
+}
+
+static void append(char *line, size_t size, const char *what, int64_t n)
+{
+    const size_t used = strlen(line);
+
+    if (n > 0)
+        snprintf(line + used, size - used, "%s%s: %" PRId64, used ? ", " : "", what, n);
+}
+
+void statistics_unseen(const statistics &counts, char *line, size_t size)
+{
+    static const char *const reasons[STATISTICS_REASONS] = {
+        "",
+        "",
+        "",
+        "heights differ (check.height)",
+        "sizes differ (check.size, ball.radius)",
+        "disparity out of range",
+        "images unusable"};
+
+    line[0] = 0;
+    append(line, size, "nothing of the ball's colour", counts.no_colour);
+    for (int i = 1; i < BLOB_FAULTS; i++)
+        append(line, size, blob_fault_text(static_cast<blob_fault>(i)), counts.faults[i]);
+    for (int i = STEREO_HEIGHTS_DIFFER; i < STATISTICS_REASONS; i++)
+        append(line, size, reasons[i], counts.reasons[i]);
+}
+
+bool statistics_nothing_usable(const statistics &counts)
+{
+    return counts.pairs + counts.malformed > 0 && counts.pairs == counts.reasons[STEREO_UNUSABLE];
 }
 
 static void times_json(const char *name, const time_histogram &times, FILE *out)

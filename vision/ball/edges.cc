@@ -8,8 +8,9 @@ static const int half_width = 5;
 static const int gap = 2;
 static const int profile_length = 2 * half_width + 1;
 static const int side_length = half_width - gap;
-static const double contrast_min = 10; /* levels of 255 between the sides */
-static const int outside_run = 3;      /* px of other colours that end the ball */
+static const double profile_radius = 110; /* px: of larger balls the samples are further apart */
+static const double contrast_min = 10;    /* levels of 255 between the sides */
+static const int outside_run = 3;         /* px of other colours that end the ball */
 
 struct rgb {
     float channel[3];
@@ -39,6 +40,11 @@ static ray_table make_rays()
 }
 
 static const ray_table rays = make_rays();
+
+pixel_point edges_ray(int i)
+{
+    return {rays.x[i], rays.y[i]};
+}
 
 static bool inside(const image_view &image, double column, double row)
 {
@@ -110,6 +116,50 @@ void edges_coarse(const image_view &image, const colour_table &colours, const ca
     }
 }
 
+/* The ends of one ray, px from `start`; returns how many. Steps as in coarse_end. */
+static int ends_of_ray(const image_view &image, const colour_table &colours,
+                       const pixel_point &start, double x, double y, int reach, int pause,
+                       int *ends)
+{
+    const int red = image_red(image);
+    const int step_x = static_cast<int>(x * 65536);
+    const int step_y = static_cast<int>(y * 65536);
+    int column = static_cast<int>((start.column + 0.5) * 65536);
+    int row = static_cast<int>((start.row + 0.5) * 65536);
+    int last = 0;
+    int n = 0;
+
+    for (int distance = 0; distance <= reach && distance - last <= pause;
+         distance++, column += step_x, row += step_y) {
+        if (column < 0 || row < 0 || column >> 16 >= image.width || row >> 16 >= image.height)
+            break;
+        if (colour_member(colours, image_pixel(image, column >> 16, row >> 16), red)) {
+            last = distance;
+        } else if (distance - last == outside_run && last > 0) {
+            n = n < EDGES_ENDS ? n + 1 : n;
+            ends[n - 1] = last;
+        }
+    }
+    return n;
+}
+
+void edges_all(const image_view &image, const colour_table &colours, const camera &eye,
+               const pixel_point &start, double reach, double pause, outline_ends *ends)
+{
+    int n = 0;
+
+    for (int i = 0; i < OUTLINE_RAYS; i++) {
+        int found[EDGES_ENDS];
+        const int n_found = ends_of_ray(image, colours, start, rays.x[i], rays.y[i],
+                                        static_cast<int>(reach), static_cast<int>(pause), found);
+        ends->first[i] = n;
+        for (int k = 0; k < n_found; k++)
+            ends->view[n++] = camera_direction(eye, {start.column + rays.x[i] * (found[k] + 0.5),
+                                                     start.row + rays.y[i] * (found[k] + 0.5)});
+    }
+    ends->first[OUTLINE_RAYS] = n;
+}
+
 static rgb mean(const rgb *samples, int n)
 {
     rgb sum = {};
@@ -158,6 +208,7 @@ static bool edge_position(const rgb *profile, const colour_table &colours, int r
     return true;
 }
 
+/* `x` and `y`: from one sample to the next; px. */
 static bool take_profile(const image_view &image, const pixel_point &edge, double x, double y,
                          rgb *profile)
 {
@@ -171,33 +222,36 @@ static bool take_profile(const image_view &image, const pixel_point &edge, doubl
 }
 
 /* The ray's direction on the guessed cone. */
-static direction cone_direction(const outline &guess, const direction &across,
-                                const direction &down, int i)
+static direction cone_direction(const outline &guess, const outline_frame &frame, int i)
 {
-    const double sine = guess.tangent * guess.cosine;
+    const double stretch = guess.wide_cosine * (rays.x[i] * rays.x[i] - rays.y[i] * rays.y[i]) +
+                           guess.wide_sine * 2 * rays.x[i] * rays.y[i];
+    const double sine = guess.tangent * guess.cosine * (1 + stretch);
     const double x = rays.x[i] * sine;
     const double y = rays.y[i] * sine;
 
-    return {guess.axis.x * guess.cosine + across.x * x + down.x * y,
-            guess.axis.y * guess.cosine + across.y * x + down.y * y,
-            guess.axis.z * guess.cosine + across.z * x + down.z * y};
+    return {guess.axis.x * guess.cosine + frame.right.x * x + frame.down.x * y,
+            guess.axis.y * guess.cosine + frame.right.y * x + frame.down.y * y,
+            guess.axis.z * guess.cosine + frame.right.z * x + frame.down.z * y};
 }
 
 void edges_fine(const image_view &image, const colour_table &colours, const camera &eye,
                 const outline &guess, outline_points *points)
 {
-    const direction across = direction_normalised(direction_cross({0, 1, 0}, guess.axis));
-    const direction down = direction_cross(guess.axis, across);
+    const outline_frame frame = outline_axes(guess.axis);
     const pixel_point centre = camera_project(eye, guess.axis);
+    /* The outline of a large ball is less sharp, and known less well, in pixels. */
+    const double stride = std::fmax(1, guess.tangent * eye.focal / profile_radius);
 
     for (int i = 0; i < OUTLINE_RAYS; i++) {
-        const pixel_point edge = camera_project(eye, cone_direction(guess, across, down, i));
+        const pixel_point edge = camera_project(eye, cone_direction(guess, frame, i));
         const double x = edge.column - centre.column;
         const double y = edge.row - centre.row;
-        const double scale = 1 / std::sqrt(x * x + y * y);
+        const double scale = stride / std::sqrt(x * x + y * y);
         rgb profile[profile_length];
         double place;
 
+        points->outside[i] = !inside(image, edge.column, edge.row);
         points->valid[i] = take_profile(image, edge, x * scale, y * scale, profile) &&
                            edge_position(profile, colours, image_red(image), &place);
         if (points->valid[i])

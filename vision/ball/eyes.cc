@@ -22,6 +22,7 @@ static stereo_marker look_in(eyes *who, const image_view &left, const image_regi
     int j = 0;
 
     const int n_right = segment_find(&who->work, right, rig.right, right_part, step, in_right);
+    who->looked_left = n_right > 0;
     if (n_right > 0)
         n_left = segment_find(&who->work, left, rig.left, left_part, step, in_left);
     const stereo_marker marker = stereo_match(rig, in_left, n_left, in_right, n_right, &i, &j);

@@ -15,9 +15,10 @@ struct eyes_config {
     segment_limits limits;
     stereo_rig rig;
     track_window window;
-    int window_step; /* px between the pixels looked at in a window */
-    int whole_step;  /* px between the pixels looked at in whole pictures */
-    int recheck;     /* after this many pairs in windows the whole pictures are looked at once */
+    int window_step;    /* px between the pixels looked at in a window */
+    int whole_step;     /* px between the pixels looked at in whole pictures */
+    int64_t most_apart; /* between the eyes' own stamps, 0 = not checked; us */
+    int recheck;        /* after this many pairs in windows the whole pictures are looked at once */
 };
 
 struct eyes {
@@ -27,6 +28,7 @@ struct eyes {
     track right;
     int64_t newest;   /* newest stamp so far, 0 = none; us */
     int in_windows;   /* pairs since whole pictures were looked at */
+    bool looked_left; /* the eye that was looked at last, to which work.refused belongs */
     bool used_window; /* the newest look was settled in windows */
     blob left_blob;   /* what the newest marker was made of, where it was seen */
     blob right_blob;

@@ -1,5 +1,7 @@
 #include "vision/ball/outline.h"
 
+#include <opencv2/core.hpp>
+
 #include <cmath>
 
 static const int least_support = 12; /* of OUTLINE_RAYS: with fewer a fit means nothing */
@@ -17,14 +19,43 @@ static bool cone_of(const direction &m, outline *cone)
     cone->axis = direction_normalised(m);
     cone->cosine = 1 / std::sqrt(squared);
     cone->tangent = std::sqrt(squared - 1);
+    cone->wide_cosine = cone->wide_sine = 0;
     return true;
 }
 
-/* Of a direction from the cone, outwards positive; px at the focal length. */
-static double outline_distance(const outline &cone, const direction &view, double focal)
+outline_frame outline_axes(const direction &axis)
+{
+    const direction right = direction_normalised(direction_cross({0, 1, 0}, axis));
+
+    return {right, direction_cross(axis, right)};
+}
+
+double outline_stretch(const outline &cone)
+{
+    return std::sqrt(cone.wide_cosine * cone.wide_cosine + cone.wide_sine * cone.wide_sine);
+}
+
+/* Cosine and sine of twice the angle of a direction about the axis. */
+static pixel_point twice_angle(const outline_frame &frame, const direction &view)
+{
+    const double x = direction_dot(frame.right, view);
+    const double y = direction_dot(frame.down, view);
+    const double squared = x * x + y * y;
+
+    return {(x * x - y * y) / squared, 2 * x * y / squared};
+}
+
+double outline_distance(const outline &cone, const direction &view, double focal)
 {
     /* cos(angle) / cos(half) - 1 is, to first order, tan(half) (half - angle). */
-    return (1 - direction_dot(cone.axis, view) / cone.cosine) / cone.tangent * focal;
+    const double distance =
+        (1 - direction_dot(cone.axis, view) / cone.cosine) / cone.tangent * focal;
+
+    if (cone.wide_cosine == 0 && cone.wide_sine == 0)
+        return distance;
+    const pixel_point twice = twice_angle(outline_axes(cone.axis), view);
+    return distance -
+           focal * cone.tangent * (cone.wide_cosine * twice.column + cone.wide_sine * twice.row);
 }
 
 static direction minus(const direction &a, const direction &b)
@@ -32,7 +63,7 @@ static direction minus(const direction &a, const direction &b)
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-static bool through_three(const direction &a, const direction &b, const direction &c, outline *cone)
+bool outline_through(const direction &a, const direction &b, const direction &c, outline *cone)
 {
     const direction normal = direction_cross(minus(b, a), minus(c, a));
     const double height = direction_dot(normal, a);
@@ -115,7 +146,7 @@ bool outline_consensus(const outline_points &points, double focal, double tolera
             const int k = (j + span) % OUTLINE_RAYS;
             outline trial;
             if (!points.valid[i] || !points.valid[j] || !points.valid[k] ||
-                !through_three(points.view[i], points.view[j], points.view[k], &trial))
+                !outline_through(points.view[i], points.view[j], points.view[k], &trial))
                 continue;
             const int near = count_near(views, focal, tolerance, trial);
             if (near > best) {
@@ -126,6 +157,12 @@ bool outline_consensus(const outline_points &points, double focal, double tolera
     if (best > 0)
         count_support(points, focal, tolerance, cone);
     return best > 0;
+}
+
+static bool agrees(const outline_points &points, int i, const outline &cone, double focal,
+                   double tolerance)
+{
+    return points.valid[i] && std::fabs(outline_distance(cone, points.view[i], focal)) <= tolerance;
 }
 
 /* Sums of the normal equations of m . d = 1. */
@@ -179,7 +216,7 @@ static bool fit(const outline_points &points, double focal, double tolerance, ou
 
     for (int i = 0; i < OUTLINE_RAYS; i++) {
         const direction &d = points.view[i];
-        if (!points.valid[i] || std::fabs(outline_distance(*cone, d, focal)) > tolerance)
+        if (!agrees(points, i, *cone, focal, tolerance))
             continue;
         accumulate(&sums, {direction_dot(d, x), direction_dot(d, y), direction_dot(d, z)});
         n++;
@@ -191,13 +228,51 @@ static bool fit(const outline_points &points, double focal, double tolerance, ou
                    cone);
 }
 
-bool outline_refine(const outline_points &points, double focal, double tolerance,
-                    double tolerance_min, outline *cone)
+/* As fit, with the stretch: 1 = m . d + tangent^2 (wide_cosine cos 2a + wide_sine sin 2a). */
+static bool fit_stretched(const outline_points &points, double focal, double tolerance,
+                          outline *cone)
+{
+    const outline_frame frame = outline_axes(cone->axis);
+    const double scale = 1 / cone->tangent; /* keeps the columns alike */
+    cv::Matx<double, 5, 5> normal = cv::Matx<double, 5, 5>::zeros();
+    cv::Vec<double, 5> right = cv::Vec<double, 5>::all(0);
+    int n = 0;
+
+    for (int i = 0; i < OUTLINE_RAYS; i++) {
+        const direction &d = points.view[i];
+        if (!agrees(points, i, *cone, focal, tolerance))
+            continue;
+        const pixel_point twice = twice_angle(frame, d);
+        const cv::Vec<double, 5> row(direction_dot(d, frame.right) * scale,
+                                     direction_dot(d, frame.down) * scale,
+                                     direction_dot(d, cone->axis), twice.column, twice.row);
+        normal += row * row.t();
+        right += row;
+        n++;
+    }
+    if (n < 2 * least_support)
+        return false;
+    const cv::Vec<double, 5> p = normal.solve(right, cv::DECOMP_CHOLESKY);
+    const direction &z = cone->axis, &x = frame.right, &y = frame.down;
+    const double mx = p[0] * scale, my = p[1] * scale;
+    if (!cone_of({x.x * mx + y.x * my + z.x * p[2], x.y * mx + y.y * my + z.y * p[2],
+                  x.z * mx + y.z * my + z.z * p[2]},
+                 cone))
+        return false;
+    cone->wide_cosine = p[3] / (cone->tangent * cone->tangent);
+    cone->wide_sine = p[4] / (cone->tangent * cone->tangent);
+    return outline_stretch(*cone) < 0.5;
+}
+
+typedef bool (*fit_function)(const outline_points &, double, double, outline *);
+
+static bool refine(fit_function step, const outline_points &points, double focal, double tolerance,
+                   double tolerance_min, outline *cone)
 {
     outline trial = *cone;
 
     for (int round = 0; round < refine_rounds; round++) {
-        if (!fit(points, focal, tolerance, &trial))
+        if (!step(points, focal, tolerance, &trial))
             return false;
         count_support(points, focal, tolerance, &trial);
         if (trial.support < least_support)
@@ -207,4 +282,16 @@ bool outline_refine(const outline_points &points, double focal, double tolerance
     count_support(points, focal, tolerance, &trial);
     *cone = trial;
     return true;
+}
+
+bool outline_refine(const outline_points &points, double focal, double tolerance,
+                    double tolerance_min, outline *cone)
+{
+    return refine(fit, points, focal, tolerance, tolerance_min, cone);
+}
+
+bool outline_refine_stretched(const outline_points &points, double focal, double tolerance,
+                              double tolerance_min, outline *cone)
+{
+    return refine(fit_stretched, points, focal, tolerance, tolerance_min, cone);
 }

@@ -43,15 +43,34 @@ static double relative_size(const blob &found, const slopes &sight)
     return found.cone.tangent * found.cone.cosine * sight.stretch;
 }
 
+/* Both lines of sight to one thing, in the axes of the ideal eyes. */
+struct sights {
+    direction left;
+    direction right;
+};
+
+static sights sights_of(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    return {camera_upright(rig.left, left.cone.axis), camera_upright(rig.right, right.cone.axis)};
+}
+
+double stereo_height(const stereo_rig &rig, const direction &left, const direction &right)
+{
+    const slopes from_left = turned(camera_upright(rig.left, left), rig.vergence / 2);
+    const slopes from_right = turned(camera_upright(rig.right, right), -rig.vergence / 2);
+
+    return (from_right.down - from_left.down) * rig.right.focal;
+}
+
 stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &right)
 {
-    const slopes from_left = turned(left.cone.axis, rig.vergence / 2);
-    const slopes from_right = turned(right.cone.axis, -rig.vergence / 2);
+    const sights seen = sights_of(rig, left, right);
+    const slopes from_left = turned(seen.left, rig.vergence / 2);
+    const slopes from_right = turned(seen.right, -rig.vergence / 2);
     const double closing = from_left.across - from_right.across; /* baseline / depth */
     const double left_size = relative_size(left, from_left);
     const double right_size = relative_size(right, from_right);
-    const double disparity =
-        pinhole_u(rig.left, left.cone.axis) - pinhole_u(rig.right, right.cone.axis);
+    const double disparity = pinhole_u(rig.left, seen.left) - pinhole_u(rig.right, seen.right);
 
     if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <= rig.height_tolerance))
         return STEREO_HEIGHTS_DIFFER;
@@ -69,14 +88,24 @@ stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &
     return STEREO_SEEN;
 }
 
+/* Whether the lines of sight meet behind the eyes. */
+static bool meet_behind(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    const sights seen = sights_of(rig, left, right);
+
+    return turned(seen.left, rig.vergence / 2).across <
+           turned(seen.right, -rig.vergence / 2).across;
+}
+
 static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
 {
+    const sights seen = sights_of(rig, left, right);
     stereo_marker marker;
 
     marker.reason = STEREO_SEEN;
-    marker.u_right = pinhole_u(rig.right, right.cone.axis);
-    marker.v_right = pinhole_v(rig.right, right.cone.axis);
-    marker.disparity = pinhole_u(rig.left, left.cone.axis) - marker.u_right;
+    marker.u_right = pinhole_u(rig.right, seen.right);
+    marker.v_right = pinhole_v(rig.right, seen.right);
+    marker.disparity = pinhole_u(rig.left, seen.left) - marker.u_right;
     marker.radius = right.radius;
     return marker;
 }
@@ -98,11 +127,11 @@ stereo_marker stereo_match(const stereo_rig &rig, const blob *left, int n_left, 
                 continue;
             seen = reason == STEREO_SEEN;
             best = score;
-            marker = stereo_marker();
+            marker = seen ? marker_of(rig, left[i], right[j]) : stereo_marker();
             marker.reason = reason;
+            marker.meets_behind = meet_behind(rig, left[i], right[j]);
             if (!seen)
                 continue;
-            marker = marker_of(rig, left[i], right[j]);
             *left_index = i;
             *right_index = j;
         }

@@ -7,7 +7,9 @@
 #include "vision/ball/camera.h"
 #include "vision/ball/segment.h"
 
-/* How the eyes stand to each other, and what a pair of findings must obey. */
+/* How the eyes stand to each other, and what a pair of findings must obey. Ideal eyes stand level
+ * beside each other and are turned by half the vergence each about the vertical axis; what a real
+ * camera is turned besides is in its yaw, pitch and roll. Markers are those of the ideal eyes. */
 struct stereo_rig {
     camera left;
     camera right;
@@ -38,7 +40,14 @@ struct stereo_marker {
     double v_right = 0;   /* px below it */
     double disparity = 0; /* u_left - u_right, px */
     double radius = 0;    /* px, right eye */
+    /* The lines of sight to what was found in both eyes, also where it was refused, part ahead and
+     * meet behind: as if the eyes were swapped. */
+    bool meets_behind = false;
 };
+
+/* How much higher the left eye sees a thing than the right, where both directions (the cameras' own
+ * axes) are to one thing: 0 but for errors. px at the right eye's focal length. */
+double stereo_height(const stereo_rig &rig, const direction &left, const direction &right);
 
 /* Whether two findings are one ball: on one height, of one size, at a possible distance. With
  * vergence the raw rows of one point differ by many px at the picture's rim, so both lines of sight

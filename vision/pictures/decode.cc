@@ -1,51 +1,48 @@
 #include "vision/pictures/decode.h"
 
-#include <turbojpeg.h>
+#include <opencv2/imgproc.hpp>
 
-static const char wrong_size[] =
-    "it has not the size that the configuration gives the camera (camera.width, camera.height)";
+#include <cstdio>
 
-decoder::decoder() : jpeg_(tjInitDecompress()) {}
+#include "vision/pictures/jpeg.h"
 
-decoder::~decoder()
+/* To BGR, into pixels_. `rows`: of all planes. */
+const char *decoder::convert(const encoded_image &from, int to_bgr, int rows)
 {
-    if (jpeg_)
-        tjDestroy(jpeg_);
-}
+    const format &kind = *format_of(from.format);
+    const cv::Mat raw(rows, from.width, CV_8UC(kind.row_bytes), const_cast<uint8_t *>(from.data),
+                      from.stride);
+    cv::Mat bgr(from.height, from.width, CV_8UC3, pixels_.data());
 
-const char *decoder::decode_jpeg(const encoded_image &from, const camera &eye, image_view *view)
-{
-    const unsigned long size = from.size;
-    int width = 0;
-    int height = 0;
-    int subsampling = 0;
-    int colours = 0;
-
-    if (!jpeg_)
-        return "the JPEG decoder could not be made";
-    if (tjDecompressHeader3(jpeg_, from.data, size, &width, &height, &subsampling, &colours) < 0)
-        return "its JPEG header is damaged";
-    if (width != eye.width || height != eye.height)
-        return wrong_size;
-    if (colours == TJCS_GRAY)
-        return "it is grey: a ball is found by its colour";
-    pixels_.resize(static_cast<size_t>(width) * static_cast<size_t>(height) * 3);
-    if (tjDecompress2(jpeg_, from.data, size, pixels_.data(), width, 3 * width, height, TJPF_RGB,
-                      TJFLAG_LIMITSCANS) < 0)
-        return "its JPEG data are damaged";
-    *view = {pixels_.data(), width, height, static_cast<size_t>(width) * 3, PIXEL_RGB};
-    return nullptr;
+    cv::cvtColor(raw, bgr, to_bgr);
+    return bgr.data == pixels_.data() ? nullptr : "it cannot be converted";
 }
 
 const char *decoder::decode(const encoded_image &from, const camera &eye, image_view *view)
 {
-    if (from.width != eye.width || from.height != eye.height)
-        return wrong_size;
-    if (from.format == PIXEL_FORMAT_MJPEG)
-        return decode_jpeg(from, eye, view);
-    if (from.format == PIXEL_FORMAT_GRAY)
-        return "it is grey: a ball is found by its colour";
-    *view = {from.data, from.width, from.height, from.stride,
-             from.format == PIXEL_FORMAT_RGB ? PIXEL_RGB : PIXEL_BGR};
-    return nullptr;
+    const format &kind = *format_of(from.format);
+    const size_t row = static_cast<size_t>(from.width) * 3;
+    const char *wrong = nullptr;
+
+    if (from.width != eye.width || from.height != eye.height) {
+        snprintf(wrong_, sizeof wrong_,
+                 "it has %d x %d pixels, but camera.width and camera.height say %d x %d",
+                 from.width, from.height, eye.width, eye.height);
+        return wrong_;
+    }
+    if (kind.to_bgr == FORMAT_GREY)
+        return "it is grey (GRAY, 1497715271): a ball is found by its colour";
+    if (kind.to_bgr == FORMAT_AS_IT_IS) {
+        *view = {from.data, from.width, from.height, from.stride,
+                 from.format == PIXEL_FORMAT_RGB ? PIXEL_RGB : PIXEL_BGR};
+        return nullptr;
+    }
+    pixels_.resize(row * static_cast<size_t>(from.height));
+    if (kind.to_bgr == FORMAT_COMPRESSED)
+        wrong = jpeg_decode(from.data, from.size, from.width, from.height, pixels_.data());
+    else
+        wrong = convert(from, kind.to_bgr, from.height * (kind.planes ? 3 : 2) / 2);
+    *view = {pixels_.data(), from.width, from.height, row,
+             kind.to_bgr == FORMAT_COMPRESSED ? PIXEL_RGB : PIXEL_BGR};
+    return wrong;
 }

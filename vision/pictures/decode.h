@@ -9,25 +9,20 @@
 #include "vision/ball/image.h"
 #include "vision/pictures/image_message.h"
 
-/* Holds what decoding JPEG needs. One decoder per eye: the picture lives in it until the next. */
+/* One decoder per eye: the picture lives in it until the next. */
 class decoder
 {
 public:
-    decoder();
-    ~decoder();
-    decoder(const decoder &) = delete;
-    decoder &operator=(const decoder &) = delete;
-
-    /* Raw pictures are not copied: `view` then points into the message. A picture must have the
+    /* RGB and BGR are not copied: `view` then points into the message. A picture must have the
      * size that the camera is configured for, which bounds what a hostile JPEG can ask for.
-     *   returns nullptr, or why the picture is unusable (a constant text). */
+     *   returns nullptr, or why the picture is unusable; the text lives as long as the picture. */
     const char *decode(const encoded_image &from, const camera &eye, image_view *view);
 
 private:
-    const char *decode_jpeg(const encoded_image &from, const camera &eye, image_view *view);
+    const char *convert(const encoded_image &from, int to_bgr, int rows);
 
-    void *jpeg_;
     std::vector<uint8_t> pixels_;
+    char wrong_[192] = "";
 };
 
 #endif

@@ -69,29 +69,44 @@ static const char *skip_metadata(reader *in)
     return nullptr;
 }
 
-static const char *check_rows(const encoded_image &image, int32_t stride)
+static const char *check_rows(const encoded_image &image, const format &kind, int32_t stride)
 {
-    const size_t row =
-        static_cast<size_t>(image.width) * (image.format == PIXEL_FORMAT_GRAY ? 1 : 3);
+    const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(kind.row_bytes);
+    const size_t rows = static_cast<size_t>(image.height) * (kind.planes ? 3 : 2) / 2;
 
-    if (image.format == PIXEL_FORMAT_MJPEG)
+    if (kind.to_bgr == FORMAT_COMPRESSED)
         return nullptr;
+    if (image.width % kind.even || image.height % kind.even)
+        return "an image's width or height is odd, which its pixelformat does not allow";
     if (stride < 0 || static_cast<size_t>(stride) < row)
         return "an image's row_stride is shorter than its rows";
-    if (image.size < static_cast<size_t>(stride) * (static_cast<size_t>(image.height) - 1) + row)
+    if (image.size < static_cast<size_t>(stride) * (rows - 1) + row)
         return "an image has fewer bytes than its rows need";
     return nullptr;
 }
 
-static bool known_format(int32_t format)
+static const char *check_image(encoded_image *image, int32_t stride, image_message *message)
 {
-    return format == PIXEL_FORMAT_GRAY || format == PIXEL_FORMAT_RGB ||
-           format == PIXEL_FORMAT_BGR || format == PIXEL_FORMAT_MJPEG;
+    const format *const kind = format_of(image->format);
+
+    if (image->width < 1 || image->height < 1 || image->width > IMAGE_MESSAGE_MAX_SIDE ||
+        image->height > IMAGE_MESSAGE_MAX_SIDE)
+        return "an image's width or height is out of range";
+    if (!kind) {
+        format_complain(image->format, message->wrong, sizeof message->wrong);
+        return message->wrong;
+    }
+    if (image->size < 1)
+        return "an image's size is out of range";
+    const char *wrong = check_rows(*image, *kind, stride);
+    image->stride = wrong || kind->to_bgr == FORMAT_COMPRESSED ? 0 : static_cast<size_t>(stride);
+    return wrong;
 }
 
-static const char *take_image(reader *in, encoded_image *image)
+/* `is_eye`: else it is passed over. */
+static const char *take_image(reader *in, bool is_eye, encoded_image *image, image_message *message)
 {
-    take_int64(in); /* the pair's own stamp counts */
+    image->utime = take_int64(in);
     image->width = take_int32(in);
     image->height = take_int32(in);
     const int32_t stride = take_int32(in);
@@ -99,30 +114,25 @@ static const char *take_image(reader *in, encoded_image *image)
     const int32_t size = take_int32(in);
     if (in->failed)
         return "it ends inside an image";
-    if (image->width < 1 || image->height < 1 || image->width > IMAGE_MESSAGE_MAX_SIDE ||
-        image->height > IMAGE_MESSAGE_MAX_SIDE)
-        return "an image's width or height is out of range";
-    if (!known_format(image->format))
-        return "an image's pixelformat is unknown";
-    if (size < 1)
+    if (size < 0)
         return "an image's size is out of range";
     image->size = static_cast<size_t>(size);
     image->data = take_bytes(in, image->size);
     if (!image->data)
         return "it ends inside an image's pixels";
-    const char *wrong = check_rows(*image, stride);
-    image->stride = wrong || image->format == PIXEL_FORMAT_MJPEG ? 0 : static_cast<size_t>(stride);
+    const char *wrong = is_eye ? check_image(image, stride, message) : nullptr;
     return wrong ? wrong : skip_metadata(in);
 }
 
 static const char *take_images(reader *in, const int16_t *types, int n, image_message *message)
 {
     for (int i = 0; i < n; i++) {
+        const bool is_eye = types[i] == type_left || types[i] == type_right;
         encoded_image image;
-        const char *wrong = take_image(in, &image);
+        const char *wrong = take_image(in, is_eye, &image, message);
         if (wrong)
             return wrong;
-        if (types[i] != type_left && types[i] != type_right)
+        if (!is_eye)
             continue;
         encoded_image *place = types[i] == type_left ? &message->left : &message->right;
         if (place->data)

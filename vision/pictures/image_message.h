@@ -9,13 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/* bot_core.image_t.pixelformat: the four letters of the format's name, first letter lowest. */
-enum pixel_format : int32_t {
-    PIXEL_FORMAT_GRAY = 1497715271,
-    PIXEL_FORMAT_RGB = 859981650,
-    PIXEL_FORMAT_BGR = 861030210,
-    PIXEL_FORMAT_MJPEG = 1196444237,
-};
+#include "vision/pictures/formats.h"
 
 /* A picture as it came, not yet decoded. `data` belongs to the message. For raw formats it has been
  * checked that all rows lie inside the `size` bytes. */
@@ -26,6 +20,7 @@ struct encoded_image {
     int height = 0;    /* px, 1 .. IMAGE_MESSAGE_MAX_SIDE */
     size_t stride = 0; /* bytes from row to row; 0 in compressed formats */
     int32_t format = 0;
+    int64_t utime = 0; /* the eye's own exposure, 0 = not said; us */
 };
 
 enum { IMAGE_MESSAGE_MAX_SIDE = 16384, IMAGE_MESSAGE_MAX_IMAGES = 16 };
@@ -34,12 +29,12 @@ struct image_message {
     int64_t utime = 0; /* exposure; us, > 0 */
     encoded_image left;
     encoded_image right;
+    char wrong[192] = ""; /* image_message_parse's text, where it is not constant */
 };
 
-/* Takes the message apart. Exactly one left and one right image must be there; others are checked
- * and passed over.
- *   returns nullptr, or what is wrong with the message (a constant text); then `message` is
- *   unspecified. */
+/* Takes the message apart. Exactly one left and one right image must be there; others, such as a
+ * disparity map, are passed over whatever they hold.
+ *   returns nullptr, or what is wrong with the message, in a constant text or in message->wrong. */
 const char *image_message_parse(const uint8_t *data, size_t size, image_message *message);
 
 #endif

@@ -92,6 +92,18 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(accuracy.main(arguments), 1)
         self.assertIn("nonsense", said.getvalue())
 
+    def test_hard_pictures_are_drawn_and_counted(self):
+        with tempfile.TemporaryDirectory() as name:
+            arguments = ["--only", "vision", "--draws", "1", "--out", name]
+            with contextlib.redirect_stdout(io.StringIO()) as said:
+                self.assertEqual(accuracy.main(arguments), 0)
+            rows = json.loads((Path(name) / "vision.json").read_text())
+            for row in rows.values():
+                for chain in row.values():
+                    self.assertEqual(chain["found"] + chain["missed"] + chain["wrong"], 1)
+            self.assertIn("| all |", said.getvalue())
+            self.assertEqual(rows["clean"]["reach-vision"]["found"], 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -26,7 +26,7 @@ eyes_config fixture_config()
     eyes_config config = {};
 
     config.colour = {125 * degree, 35 * degree, 0.35, 1, 0.12};
-    config.limits = {8, 110, 0.5, 0.5, 0.8};
+    config.limits = {0.35 * degree, 5.25 * degree, 0.5, 0.5, 0.8};
     config.rig = {eyes.left, eyes.right, eyes.vergence, eyes.baseline, 0, 3, 0.15, -300, 300};
     config.window = {24, 300, 500000};
     config.window_step = 3;
@@ -90,10 +90,11 @@ static bot_core_image_t wrap(int width, int height, std::vector<uint8_t> *bytes,
     return image;
 }
 
-static std::vector<uint8_t> encode(int64_t utime, bot_core_image_t *left_and_right)
+static std::vector<uint8_t> encode(int64_t utime, bot_core_image_t *left_right_other, int n = 2)
 {
-    int16_t types[2] = {BOT_CORE_IMAGES_T_LEFT, BOT_CORE_IMAGES_T_RIGHT};
-    const bot_core_images_t message = {utime, 2, types, left_and_right};
+    const int16_t disparity = 4; /* bot_core.images_t's DISPARITY_ZIPPED */
+    int16_t types[3] = {BOT_CORE_IMAGES_T_LEFT, BOT_CORE_IMAGES_T_RIGHT, disparity};
+    const bot_core_images_t message = {utime, n, types, left_right_other};
     std::vector<uint8_t> bytes(static_cast<size_t>(bot_core_images_t_encoded_size(&message)));
 
     bot_core_images_t_encode(bytes.data(), 0, static_cast<int>(bytes.size()), &message);
@@ -109,6 +110,18 @@ std::vector<uint8_t> fixture_message(int64_t utime, const picture_pair &pair, in
                                   wrap(pair.right.width, pair.right.height, &right, raw)};
 
     return encode(utime, images);
+}
+
+std::vector<uint8_t> fixture_message_with_disparity(int64_t utime)
+{
+    std::vector<uint8_t> pixels(8 * 4 * 3, 7);
+    std::vector<uint8_t> zipped(11, 1);
+    bot_core_image_t images[3] = {wrap(8, 4, &pixels, true), wrap(8, 4, &pixels, true),
+                                  wrap(8, 4, &zipped, true)};
+
+    images[2].pixelformat = 0;
+    images[2].row_stride = 0;
+    return encode(utime, images, 3);
 }
 
 std::vector<uint8_t> fixture_small_message()

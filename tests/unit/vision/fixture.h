@@ -42,6 +42,9 @@ std::vector<uint8_t> fixture_jpeg(const picture &from, int quality);
 /* An images_t message by the generated encoder: raw RGB, or JPEG when `quality` > 0. */
 std::vector<uint8_t> fixture_message(int64_t utime, const picture_pair &pair, int quality);
 
+/* A small message with a third image that is no picture. */
+std::vector<uint8_t> fixture_message_with_disparity(int64_t utime);
+
 /* A small message with metadata, for taking apart byte by byte. */
 std::vector<uint8_t> fixture_small_message();
 

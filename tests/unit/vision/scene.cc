@@ -38,6 +38,19 @@ static direction to_eye(const pose &at, const direction &p)
     return {at.cosine * x - at.sine * p.z, p.y, at.sine * x + at.cosine * p.z};
 }
 
+/* The inverse of camera_upright, whose rotations are undone one after the other. */
+static direction tilted(const camera &eye, const direction &upright)
+{
+    const double cy = std::cos(eye.yaw), sy = std::sin(eye.yaw);
+    const double cp = std::cos(eye.pitch), sp = std::sin(eye.pitch);
+    const double cr = std::cos(eye.roll), sr = std::sin(eye.roll);
+    const direction a = {cy * upright.x - sy * upright.z, upright.y,
+                         sy * upright.x + cy * upright.z};
+    const direction b = {a.x, cp * a.y - sp * a.z, sp * a.y + cp * a.z};
+
+    return {cr * b.x + sr * b.y, cr * b.y - sr * b.x, b.z};
+}
+
 void scene_project(const scene_eyes &eyes, bool left, const direction &point, double *u, double *v)
 {
     const camera &eye = left ? eyes.left : eyes.right;
@@ -138,7 +151,7 @@ struct drawing {
 /* The picture cast along one line of sight; `column` and `row` name the pixel it belongs to. */
 static void look(const drawing &draw, const pixel_point &at, int column, int row, double *colour)
 {
-    const direction view = camera_direction(draw.eye, at);
+    const direction view = camera_upright(draw.eye, camera_direction(draw.eye, at));
     const hit found = nearest(draw.what, draw.centres, view);
 
     if (draw.what.bar && at.column >= draw.what.bar_left && at.column < draw.what.bar_right) {
@@ -163,7 +176,7 @@ static int care(const drawing &draw, int column, int row)
         needed = column < draw.what.bar_left + 2 || column > draw.what.bar_right - 2 ? 2 : 1;
     for (size_t i = 0; i < draw.centres.size() && needed < 2; i++) {
         const direction &centre = draw.centres[i];
-        const pixel_point middle = camera_project(draw.eye, centre);
+        const pixel_point middle = camera_project(draw.eye, tilted(draw.eye, centre));
         const double radius = draw.eye.focal * draw.what.spheres[i].radius / centre.z;
         const double x = column - middle.column;
         const double y = row - middle.row;

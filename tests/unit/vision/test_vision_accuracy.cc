@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "fixture.h"
 #include "vision/answers/statistics.h"
@@ -145,7 +146,7 @@ START_TEST(hidden_ball_is_right_or_not_seen)
 }
 END_TEST
 
-/* Where the picture ends so does the outline; with too little of it nothing is said. */
+/* Where the picture ends so does the outline. What is left must be seen, and be enough. */
 START_TEST(ball_cut_by_the_rim_needs_enough_outline)
 {
     scene_eyes rig = scene_default_eyes();
@@ -157,15 +158,16 @@ START_TEST(ball_cut_by_the_rim_needs_enough_outline)
     what.spheres[0].centre = {0, 0.102, 0.5};
     const picture_pair pair = fixture_draw(what, rig, random);
     const fixture_truth truth = fixture_truth_of(what, rig);
-    for (double coverage_min : {0.6, 0.25}) {
+    for (double coverage_min : {0.95, 0.6}) {
         eyes who;
         config.limits.coverage_min = coverage_min;
         eyes_init(&who, config);
         const stereo_marker marker = eyes_look(&who, 1000000, pair.left.view(), pair.right.view());
-        if (coverage_min > 0.5) {
+        if (coverage_min > 0.9) {
             ck_assert_int_eq(marker.reason, STEREO_NOT_IN_RIGHT);
         } else {
             ck_assert_int_eq(marker.reason, STEREO_SEEN);
+            ck_assert_double_lt(std::fabs(marker.u_right - truth.u_right), 0.3);
             ck_assert_double_lt(std::fabs(marker.v_right - truth.v_right), 1);
         }
     }
@@ -201,6 +203,53 @@ START_TEST(other_greenish_things_are_not_the_ball)
 }
 END_TEST
 
+/* Why it was not seen: the fault of the largest thing of its colour. */
+START_TEST(what_was_refused_is_named)
+{
+    const double degree = 3.14159265358979323846 / 180;
+    std::mt19937_64 random(8);
+    const picture_pair pair = fixture_draw(fixture_plain_scene(), scene_default_eyes(), random);
+    eyes_config large = fixture_config();
+    eyes_config small = fixture_config();
+    eyes_config pale = fixture_config();
+
+    large.limits.radius_max = degree;
+    small.limits.radius_min = 4 * degree;
+    pale.limits.fill_min = 1.01;
+    const struct {
+        eyes_config config;
+        blob_fault fault;
+    } cases[] = {{large, BLOB_TOO_LARGE}, {small, BLOB_TOO_SMALL}, {pale, BLOB_FILL}};
+    for (const auto &one : cases) {
+        eyes who;
+        eyes_init(&who, one.config);
+        const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
+        ck_assert_int_eq(marker.reason, STEREO_NOT_IN_RIGHT);
+        ck_assert(!who.looked_left);
+        ck_assert_int_ge(who.work.n_refused, 1);
+        ck_assert_int_eq(who.work.refused[0].fault, one.fault);
+        statistics counts;
+        char line[512];
+        counts.faults[one.fault] = 3;
+        statistics_unseen(counts, line, sizeof line);
+        ck_assert_ptr_nonnull(strstr(line, blob_fault_text(one.fault)));
+        ck_assert_ptr_nonnull(strstr(line, ": 3"));
+    }
+}
+END_TEST
+
+START_TEST(no_usable_pair_at_all_is_noticed)
+{
+    statistics counts;
+
+    ck_assert(!statistics_nothing_usable(counts));
+    counts.pairs = counts.reasons[STEREO_UNUSABLE] = 3;
+    ck_assert(statistics_nothing_usable(counts));
+    counts.pairs++;
+    ck_assert(!statistics_nothing_usable(counts));
+}
+END_TEST
+
 START_TEST(nothing_is_seen_where_nothing_is)
 {
     const scene_eyes rig = scene_default_eyes();
@@ -227,6 +276,8 @@ int main()
         hidden_ball_is_right_or_not_seen,
         ball_cut_by_the_rim_needs_enough_outline,
         other_greenish_things_are_not_the_ball,
+        what_was_refused_is_named,
+        no_usable_pair_at_all_is_noticed,
         nothing_is_seen_where_nothing_is,
     };
 

@@ -55,6 +55,30 @@ START_TEST(fingerprints_are_those_that_other_tools_know)
 }
 END_TEST
 
+START_TEST(a_third_image_is_passed_over)
+{
+    const std::vector<uint8_t> bytes = fixture_message_with_disparity(77);
+    image_message message;
+
+    ck_assert_ptr_null(parse(bytes.data(), bytes.size(), &message));
+    ck_assert_int_eq(message.utime, 77);
+    ck_assert_int_eq(message.right.width, 8);
+}
+END_TEST
+
+START_TEST(a_strange_pixelformat_is_named)
+{
+    std::vector<uint8_t> bytes = fixture_small_message();
+    image_message message;
+
+    put(&bytes, AT_FORMAT, 909199180, 4);
+    const char *wrong = parse(bytes.data(), bytes.size(), &message);
+    ck_assert_ptr_nonnull(wrong);
+    ck_assert_ptr_nonnull(strstr(wrong, "909199180 (LE_GRAY16)"));
+    ck_assert_ptr_nonnull(strstr(wrong, "MJPEG"));
+}
+END_TEST
+
 START_TEST(good_message_is_read_without_copying)
 {
     const std::vector<uint8_t> bytes = fixture_small_message();
@@ -176,6 +200,8 @@ int main()
 {
     const TTest *const tests[] = {
         fingerprints_are_those_that_other_tools_know,
+        a_third_image_is_passed_over,
+        a_strange_pixelformat_is_named,
         good_message_is_read_without_copying,
         every_truncation_is_refused,
         hostile_numbers_are_refused,

@@ -1,0 +1,204 @@
+/* Rigs that nobody rectified: learned from a moved ball, and read from OpenCV's files. */
+#include <opencv2/core.hpp>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "common/program/log.h"
+#include "fixture.h"
+#include "vision/config.h"
+#include "vision/rig/calibrate.h"
+#include "vision/rig/from_opencv.h"
+
+/* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
+#include "tests/unit/suite.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+static const int n_sightings = 80;
+static const int n_checks = 12;
+
+/* Webcams on a home-made mount. */
+static scene_eyes crooked_eyes()
+{
+    scene_eyes eyes = scene_default_eyes();
+
+    eyes.left.roll = 2 * degree;
+    eyes.left.pitch = 1 * degree;
+    eyes.left.aspect = eyes.right.aspect = 0.96;
+    return eyes;
+}
+
+static encoded_image encoded(const picture &from)
+{
+    return {from.rgb.data(),
+            from.rgb.size(),
+            from.width,
+            from.height,
+            static_cast<size_t>(from.width) * 3,
+            PIXEL_FORMAT_RGB};
+}
+
+static void show_ball(rig_calibrator *learner, int i, std::mt19937_64 &random)
+{
+    const picture_pair pair = fixture_draw(scene_random(random), crooked_eyes(), random);
+    incoming_pair incoming;
+
+    incoming.waited = 0;
+    incoming.images.utime = 1000000 + 100000 * i;
+    incoming.images.left = encoded(pair.left);
+    incoming.images.right = encoded(pair.right);
+    learner->take(incoming);
+}
+
+static eyes_config load(const char *path)
+{
+    eyes_config config = fixture_config();
+    vision_config read;
+    char error[256];
+
+    ck_assert_msg(config_load(&read, path, nullptr, 0, error, sizeof error) == 0, "%s", error);
+    const stereo_rig rig = config_eyes(read).rig;
+    config.rig.left = rig.left;
+    config.rig.right = rig.right;
+    config.rig.vergence = rig.vergence;
+    config.rig.baseline = rig.baseline;
+    return config;
+}
+
+/* How many of new pairs are seen; those must be right. */
+static int count_seen(const eyes_config &config, std::mt19937_64 &random)
+{
+    const scene_eyes rig = crooked_eyes();
+    int seen = 0;
+
+    for (int i = 0; i < n_checks; i++) {
+        const scene what = scene_random(random);
+        const picture_pair pair = fixture_draw(what, rig, random);
+        const fixture_truth truth = fixture_truth_of(what, rig);
+        eyes who;
+        eyes_init(&who, config);
+        const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
+        if (marker.reason != STEREO_SEEN)
+            continue;
+        seen++;
+        ck_assert_double_eq_tol(marker.disparity, truth.disparity, 0.3);
+        ck_assert_double_lt(
+            std::fabs(stereo_height(config.rig, who.left_blob.cone.axis, who.right_blob.cone.axis)),
+            0.5);
+    }
+    return seen;
+}
+
+START_TEST(a_moved_ball_tells_how_the_eyes_stand)
+{
+    const char *const path = "test_vision_rig.yaml";
+    std::mt19937_64 random(fixture_seed(61));
+    rig_calibrator learner(fixture_config());
+
+    ck_assert_int_le(count_seen(fixture_config(), random), n_checks / 4);
+    for (int i = 0; i < n_sightings; i++)
+        show_ball(&learner, i, random);
+    ck_assert_int_eq(learner.finish(path, nullptr), 0);
+    const eyes_config config = load(path);
+    unlink(path);
+    ck_assert_double_eq_tol(config.rig.left.aspect, 0.96, 0.003);
+    ck_assert_double_eq_tol((config.rig.left.roll - config.rig.right.roll) / degree, 2, 0.1);
+    ck_assert_int_eq(count_seen(config, random), n_checks);
+}
+END_TEST
+
+START_TEST(too_few_sightings_are_said)
+{
+    rig_calibrator learner(fixture_config());
+    std::mt19937_64 random(62);
+
+    show_ball(&learner, 0, random);
+    ck_assert_int_eq(learner.finish("never-written.yaml", nullptr), -1);
+}
+END_TEST
+
+static cv::Matx33d about_x(double a)
+{
+    return {1, 0, 0, 0, std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a)};
+}
+
+static cv::Matx33d about_y(double a)
+{
+    return {std::cos(a), 0, std::sin(a), 0, 1, 0, -std::sin(a), 0, std::cos(a)};
+}
+
+static cv::Matx33d about_z(double a)
+{
+    return {std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1};
+}
+
+/* Points of the left camera's axes, seen by both, must be level and at their distance. */
+START_TEST(stereo_calibration_of_opencv_is_taken)
+{
+    const char *const path = "test_vision_opencv.yml";
+    const cv::Matx33d rotation = about_x(0.03) * about_y(0.12) * about_z(-0.05);
+    const cv::Vec3d translation(-0.08, 0.006, 0.004);
+    const cv::Matx33d matrix(600, 0, 330, 0, 580, 235, 0, 0, 1);
+    stereo_rig rig = fixture_config().rig;
+    char error[256] = "";
+
+    cv::FileStorage file(path, cv::FileStorage::WRITE);
+    file << "M1" << cv::Mat(matrix) << "D1"
+         << cv::Mat(cv::Matx<double, 1, 5>(-.1, .05, .001, 0, .01));
+    file << "M2" << cv::Mat(matrix) << "D2" << cv::Mat(cv::Matx<double, 1, 4>(-.1, .05, 0, .002));
+    file << "R" << cv::Mat(rotation) << "T" << cv::Mat(translation);
+    file.release();
+    ck_assert_msg(rig_from_opencv(&path, 1, &rig, error, sizeof error) == 0, "%s", error);
+    unlink(path);
+    ck_assert_double_eq_tol(rig.left.aspect, 580.0 / 600, 1e-12);
+    ck_assert_double_eq_tol(rig.right.p2, .002, 1e-12);
+    ck_assert_double_eq_tol(rig.baseline, cv::norm(translation), 1e-9);
+    for (int i = 0; i < 27; i++) {
+        const cv::Vec3d left(0.1 * (i % 3 - 1), 0.1 * (i / 3 % 3 - 1), 0.5 + 0.2 * (i / 9));
+        const cv::Vec3d right = rotation * left + translation;
+        ck_assert_double_lt(std::fabs(stereo_height(rig, {left[0], left[1], left[2]},
+                                                    {right[0], right[1], right[2]})),
+                            1e-6);
+    }
+}
+END_TEST
+
+/* By OpenCV's formula for a lens, written down once more. */
+START_TEST(lenses_are_those_of_opencv)
+{
+    const double x = 0.2, y = -0.15, r2 = x * x + y * y;
+    camera eye = scene_default_eyes().left;
+
+    eye.k1 = -0.2;
+    eye.k2 = 0.1;
+    eye.k3 = -0.05;
+    eye.p1 = 0.002;
+    eye.p2 = -0.003;
+    eye.aspect = 1.05;
+    const double radial = 1 - 0.2 * r2 + 0.1 * r2 * r2 - 0.05 * r2 * r2 * r2;
+    const double xd = x * radial + 2 * 0.002 * x * y - 0.003 * (r2 + 2 * x * x);
+    const double yd = y * radial + 0.002 * (r2 + 2 * y * y) + 2 * -0.003 * x * y;
+    const pixel_point at = camera_project(eye, direction_normalised({x, y, 1}));
+    ck_assert_double_eq_tol(at.column, 319.5 + 1200 * xd, 1e-9);
+    ck_assert_double_eq_tol(at.row, 239.5 + 1200 * 1.05 * yd, 1e-9);
+    const direction back = camera_direction(eye, at);
+    ck_assert_double_eq_tol(back.x / back.z, x, 1e-6);
+    ck_assert_double_eq_tol(back.y / back.z, y, 1e-6);
+}
+END_TEST
+
+int main()
+{
+    const TTest *const tests[] = {
+        a_moved_ball_tells_how_the_eyes_stand,
+        too_few_sightings_are_said,
+        stereo_calibration_of_opencv_is_taken,
+        lenses_are_those_of_opencv,
+    };
+
+    log_open("test_vision_rig", LOG_LEVEL_WARNING);
+    return SUITE_RUN("vision rig", tests);
+}
