@@ -23,6 +23,8 @@ static void put_settings(reach_body_request_t *request, const struct finder_sett
     request->seed = settings->seed;
     memcpy(request->noise, settings->noise, sizeof request->noise);
     memcpy(request->gravity, settings->gravity, sizeof request->gravity);
+    memcpy(request->low, settings->low, sizeof request->low);
+    memcpy(request->high, settings->high, sizeof request->high);
 }
 
 /* Returns false when there is no memory. */

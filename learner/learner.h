@@ -89,6 +89,9 @@ struct learner_body_config {
     int order[LEARNER_MAX_INPUTS];
     double noise_share; /* variance of the samples' noise in units of psi0, which the
                            search reckons with; 0 = noise_share below */
+    /* Of each input what the robot may use, rad: a body is to be sure there. low >= high: not
+     * known; 0, 0 */
+    double low[LEARNER_MAX_INPUTS], high[LEARNER_MAX_INPUTS];
 };
 
 /* Every parameter. learner_config_default() fills all rows but psi0 and

@@ -10,7 +10,8 @@
 
 _Static_assert(sizeof((reach_body_t *)0)->why == sizeof((struct finder_report *)0)->why &&
                    REACH_BODY_T_FOUND == FINDER_FOUND && REACH_BODY_T_NOT_YET == FINDER_NOT_YET &&
-                   REACH_BODY_T_NO_CHAIN == FINDER_NO_CHAIN,
+                   REACH_BODY_T_NO_CHAIN == FINDER_NO_CHAIN &&
+                   REACH_BODY_T_REFUTED == FINDER_REFUTED,
                "body_t has what a finder says");
 
 #define DECODE(type, data, size, value)                                                            \
@@ -88,10 +89,11 @@ static bool take_answer(const reach_body_t *message, struct received_body *recei
     answer->report.outcome = (enum finder_outcome)message->outcome;
     answer->report.any_body =
         message->outcome == REACH_BODY_T_FOUND ||
-        (message->outcome == REACH_BODY_T_NOT_YET && message->numbers[0] != 0);
+        ((message->outcome == REACH_BODY_T_NOT_YET || message->outcome == REACH_BODY_T_REFUTED) &&
+         message->numbers[0] != 0);
     if (answer->report.any_body)
         return take_body(message, answer);
-    return message->outcome > REACH_BODY_T_FOUND && message->outcome <= REACH_BODY_T_REFUSED;
+    return message->outcome > REACH_BODY_T_FOUND && message->outcome <= REACH_BODY_T_REFUTED;
 }
 
 bool incoming_body(const void *data, size_t size, struct received_body *received)

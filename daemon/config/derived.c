@@ -100,6 +100,8 @@ struct learner_config config_learner(const struct config *config)
         learner.reference[i] = config->learner_reference.value[i];
         learner.scale[i] = config->learner_scale;
         learner.sigma0[i] = square(config->learner_reach);
+        learner.body.low[i] = config->babble_min.value[i];
+        learner.body.high[i] = config->babble_max.value[i];
         if (config->learner_body_order.n == learner.n_inputs)
             learner.body.order[i] = (int)config->learner_body_order.value[i] - 1;
     }

@@ -32,7 +32,8 @@ struct body {
     /* What the finder says of it. */
     int samples;  /* that it was found from */
     double error; /* rms over samples kept apart, in units of noise */
-    double doubt; /* rms standard deviation of a place over `range`, of length */
+    double doubt; /* rms standard deviation of a place over `range`, or a tenth of that over what
+                     the robot may use, of length */
 };
 
 /* Every field as a number, in the order above: for a saved state and for a message. */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "learner/body/order.h"
+
 struct finder_settings finder_settings_of(const struct learner_config *config)
 {
     struct finder_settings settings = {
@@ -16,5 +18,7 @@ struct finder_settings finder_settings_of(const struct learner_config *config)
 
     for (int i = 0; i < BODY_OUTPUTS; i++)
         settings.noise[i] = sqrt(config->psi0[i] * share);
+    order_to_chain(config, config->body.low, settings.low);
+    order_to_chain(config, config->body.high, settings.high);
     return settings;
 }

@@ -1,6 +1,7 @@
 #include "learner/finder/finder.h"
 
 #include "learner/finder/judge.h"
+#include "learner/finder/multistart.h"
 #include "learner/finder/problem.h"
 #include "learner/finder/starts.h"
 #include "learner/finder/tips.h"
@@ -15,165 +16,12 @@ namespace finder
 namespace
 {
 
-constexpr int fewest = 15;      /* samples, whatever the arm */
-constexpr int first_look = 120; /* samples that starts are tried on */
-constexpr double near_noise = 2.5;
-constexpr double near_arm = 0.004; /* misfit that no wrong chain reaches, of the length */
+constexpr int fewest = 15;        /* samples, whatever the arm */
 constexpr double explains = 3.0;  /* misfit kept apart, in units of what the training misfit says */
 constexpr double believed = 0.02; /* doubt, of the length of what was seen */
 constexpr double chain_like = 0.05; /* misfit that is still an arm's, of the length */
 constexpr double as_noisy = 1.5;    /* or, in units of the noise, no more than the sensor's own */
 constexpr int many = 150;           /* samples after which an arm that is none is called so */
-
-/* Whether a joint is known to slide, or was seen to. */
-bool slides(const Data &data)
-{
-    const struct body *start = data.settings->start;
-    random_state random = random_seed(0);
-    int seen = 0;
-    const struct chain chain = start ? start->chain : circle_start(data, random, &seen).body.chain;
-
-    return std::any_of(chain.slides, chain.slides + data.n, [](bool one) { return one; });
-}
-
-/* Every fifth sample of a tool that has enough of them judges what the others found. */
-void keep_apart(Data &data, const learner_samples *contexts, int n_contexts)
-{
-    size_t at = 0;
-
-    for (int c = 0; c < n_contexts; c++)
-        for (int i = 0; i < contexts[c].n; i++)
-            data.samples[at++].apart = contexts[c].n >= 15 && i % 5 == 2;
-}
-
-void measure_joints(Data &data)
-{
-    for (int i = 0; i < data.n; i++) {
-        double low = INFINITY;
-        double high = -INFINITY;
-        for (const Sample &sample : data.samples) {
-            low = std::min(low, sample.z[i]);
-            high = std::max(high, sample.z[i]);
-        }
-        data.joint_middle.push_back((low + high) / 2);
-        data.joint_range.push_back((high - low) / 2);
-    }
-}
-
-void measure_outputs(Data &data)
-{
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-    double n = (double)data.samples.size();
-
-    for (const Sample &sample : data.samples)
-        sum += sample.x;
-    data.middle = sum / n;
-    for (const Sample &sample : data.samples)
-        squares += (sample.x - data.middle).cwiseAbs2();
-    data.length = std::max(std::sqrt(squares.sum() / n), 1e-9);
-    data.unit = data.length;
-    data.disparity_middle = data.middle[2];
-    data.disparity_unit = std::max(2 * std::sqrt(squares[2] / n), 1e-9);
-}
-
-} // namespace
-
-Data prepare(const finder_settings &settings, const learner_samples *contexts, int n_contexts)
-{
-    Data data{};
-
-    data.settings = &settings;
-    data.n = settings.n_joints;
-    data.contexts = n_contexts;
-    for (int c = 0; c < n_contexts; c++)
-        for (int i = 0; i < contexts[c].n; i++)
-            data.samples.push_back(
-                {contexts[c].z + (ptrdiff_t)i * data.n,
-                 Eigen::Map<const Eigen::Vector3d>(contexts[c].x + (ptrdiff_t)3 * i), c, false,
-                 false});
-    measure_joints(data);
-    measure_outputs(data);
-    keep_apart(data, contexts, n_contexts);
-    data.noise = Eigen::Map<const Eigen::Vector3d>(settings.noise);
-    if (settings.sees)
-        return data;
-    data.unit = slides(data) ? 1 : data.length;
-    data.noise /= data.unit;
-    for (Sample &sample : data.samples)
-        sample.x = (sample.x - data.middle) / data.unit;
-    return data;
-}
-
-namespace
-{
-
-/* At most `most` of the samples that are not kept apart, evenly. */
-Data some_of(const Data &data, size_t most)
-{
-    Data some = data;
-    std::vector<Sample> training;
-
-    for (const Sample &sample : data.samples)
-        if (!sample.apart)
-            training.push_back(sample);
-    some.samples.clear();
-    size_t n = std::min(training.size(), most);
-    for (size_t i = 0; i < n; i++)
-        some.samples.push_back(training[i * training.size() / n]);
-    return some;
-}
-
-/* A place's misfit over the length of all, from a misfit in units of the noise. */
-double relative(const Data &data, double error)
-{
-    if (data.settings->sees)
-        return error * data.noise[2] / data.disparity_unit;
-    return error * data.noise.maxCoeff() * data.unit / data.length;
-}
-
-/* The misfit of a right chain is under this, in units of the noise. */
-double near_truth(const Data &data)
-{
-    return std::max(near_noise, near_arm / relative(data, 1));
-}
-
-/* The best of many starts; stops at the first whose misfit is that of the noise, or when several
- * have come to the same best. */
-Candidate search(const Data &data, random_state &random, int *starts)
-{
-    const Data some = some_of(data, first_look);
-    Candidate best{};
-    int same = 0;
-    int seen = 0;
-    bool any = false;
-    constexpr int agree = 4;
-
-    for (*starts = 0; *starts < data.settings->starts && same < agree; ++*starts) {
-        Candidate candidate = random_start(some, random);
-        if (*starts == 0 && data.settings->start)
-            candidate = given_start(some, *data.settings->start);
-        else if (*starts <= 1 || seen > data.n / 2)
-            candidate = circle_start(data, random, &seen);
-        solve(some, 40, false, candidate);
-        if (any && candidate.cost > 30 * best.cost && candidate.cost > 1e4)
-            continue;
-        solve(some, 160, false, candidate);
-        same = any && candidate.cost > best.cost * 0.98 && candidate.cost < best.cost * 1.02
-                   ? same + 1
-                   : same;
-        if (!any || candidate.cost < best.cost) {
-            same = any && candidate.cost > best.cost * 0.98 ? same : 0;
-            best = candidate;
-            any = true;
-        }
-        if (misfit(some, best, false) < near_truth(data)) {
-            ++*starts;
-            break;
-        }
-    }
-    return best;
-}
 
 /* rms distance of what was seen from its middle, in the units of the candidate. */
 double length_of(const Data &data, const Candidate &candidate)
@@ -193,31 +41,48 @@ double length_of(const Data &data, const Candidate &candidate)
     return std::sqrt(std::max(squares / n - (sum / n).squaredNorm(), 1e-12));
 }
 
-/* The noise that the misfit over the training samples speaks of, each unknown costs a number. */
-double noise_of(const Data &data, const Candidate &candidate)
+/* What can be known of a body and its tips, over the numbers that the training samples have. */
+double knowns_share(const Data &data)
 {
     double numbers = 0;
     double known = 4.0 * data.n + (data.settings->sees ? EYES_UNKNOWNS : 0) + 3 * data.contexts;
 
     for (const Sample &sample : data.samples)
         numbers += sample.apart ? 0 : 3;
-    double freedom = std::max(1 - known / numbers, 0.1);
+    return known / numbers;
+}
+
+/* The noise that the misfit over the training samples speaks of, each unknown costs a number. */
+double noise_of(const Data &data, const Candidate &candidate)
+{
+    double freedom = std::max(1 - knowns_share(data), 0.1);
+
     return std::min(std::max(misfit(data, candidate, false, 0.05) / std::sqrt(freedom), 0.5),
                     100.0);
+}
+
+/* Whether a chain explains what was kept apart. */
+bool explained(const Data &data, double noise, const finder_report &report)
+{
+    return report.error < explains * std::max(noise, 1.0) &&
+           (relative(data, report.error) < chain_like || report.error < as_noisy);
 }
 
 finder_outcome decide(const Data &data, double noise, finder_report *report)
 {
     int n = report->samples;
 
-    if (report->error < explains * std::max(noise, 1.0) &&
-        (relative(data, report->error) < chain_like || report->error < as_noisy)) {
+    if (explained(data, noise, *report)) {
         report->any_body = true;
         if (report->doubt < believed)
             return FINDER_FOUND;
-        std::snprintf(report->why, sizeof report->why,
-                      "a chain explains %d samples, but is unsure by %.1f %% of its length", n,
-                      100 * report->doubt);
+        if (report->doubt < 1)
+            std::snprintf(report->why, sizeof report->why,
+                          "a chain explains %d samples, but is unsure by %.1f %% of its length", n,
+                          100 * report->doubt);
+        else
+            std::snprintf(report->why, sizeof report->why,
+                          "a chain explains %d samples, but is unsure by more than its length", n);
         return FINDER_NOT_YET;
     }
     std::snprintf(report->why, sizeof report->why,
@@ -244,6 +109,31 @@ struct Found {
     double noise = 1;
 };
 
+bool was_believed(const struct body *start)
+{
+    return start && start->samples > 0 && start->doubt < believed;
+}
+
+/* It is still the first start that explains the samples, and that was believed already or comes
+ * from the robot's maker: it has no rivals, and holds where no sample is. */
+bool is_trusted(const finder_settings &settings, const finder_report &report)
+{
+    const struct body *start = settings.start;
+
+    return start && report.starts == 1 && (start->samples == 0 || was_believed(start));
+}
+
+/* Fills what the report says of the candidate, and its covariance. */
+void weigh(Found &found, random_state &random, finder_report *report)
+{
+    solve(found.data, 60, true, found.best);
+    report->error = misfit(found.data, found.best, true);
+    found.noise = noise_of(found.data, found.best);
+    found.best.body.length = length_of(found.data, found.best);
+    report->doubt = judge(found.data, found.noise, random, found.best);
+    report->outcome = decide(found.data, found.noise, report);
+}
+
 /* From these tools; `start` is where it begins, or NULL for a search. */
 Found find(const finder_settings &settings, const std::vector<learner_samples> &tools,
            random_state &random, finder_report *report)
@@ -258,12 +148,18 @@ Found find(const finder_settings &settings, const std::vector<learner_samples> &
         solve(found.data, 60, false, found.best);
         tell_tips_apart(found.data, random, near_truth(found.data), found.best);
     }
-    solve(found.data, 60, true, found.best);
-    report->error = misfit(found.data, found.best, true);
-    found.noise = noise_of(found.data, found.best);
-    found.best.body.length = length_of(found.data, found.best);
-    report->doubt = judge(found.data, found.noise, random, found.best);
-    report->outcome = decide(found.data, found.noise, report);
+    bool trusted = is_trusted(settings, *report);
+    if (trusted)
+        found.data.whole = found.data.seen;
+    weigh(found, random, report);
+    if (report->outcome != FINDER_FOUND || trusted)
+        return found;
+    double apart = rivalry(found.data, found.noise, random, found.best);
+    if (apart > 0) {
+        weigh(found, random, report);
+        report->doubt = std::min(std::max(report->doubt, apart), 1e9);
+        report->outcome = decide(found.data, found.noise, report);
+    }
     return found;
 }
 
@@ -289,10 +185,119 @@ void add_tools(const finder_settings &settings, const std::vector<learner_sample
             with_it.starts = report->starts;
             *report = with_it;
             found = other;
+            found.data.settings = &settings;
         } else {
             tools.pop_back();
         }
     }
+}
+
+/* Every sample, as if all were of one tool. */
+struct Pool {
+    std::vector<double> z, x;
+
+    Pool(int n_joints, const learner_samples *contexts, int n_contexts)
+    {
+        for (const learner_samples *one = contexts; one < contexts + n_contexts; one++) {
+            z.insert(z.end(), one->z, one->z + (ptrdiff_t)one->n * n_joints);
+            x.insert(x.end(), one->x, one->x + (ptrdiff_t)one->n * BODY_OUTPUTS);
+        }
+    }
+
+    learner_samples view() const
+    {
+        return {true, (int)x.size() / BODY_OUTPUTS, z.data(), x.data()};
+    }
+};
+
+/* Whether a body that was believed is to go, though none is found instead: what a simpler
+ * explanation, with fewer tools, does as well is not known; and what no chain explains any more is
+ * none. */
+bool is_refuted(const finder_settings &settings, int n_contexts, const finder_report &report,
+                const Found &anew, const finder_report &of_anew)
+{
+    constexpr double ample = 1.0 / 3;
+
+    if (of_anew.any_body)
+        return anew.data.contexts < n_contexts && knowns_share(anew.data) < ample;
+    return report.outcome == FINDER_NO_CHAIN && of_anew.outcome == FINDER_NO_CHAIN &&
+           settings.start->error < explains;
+}
+
+/* A body that was believed may be wrong, and then it takes one hand for several tools, or for one
+ * that bends. So where it explains its samples no longer, or what it takes for tools that bend is
+ * most of all samples, they are looked at anew: from nothing, and as if all were of one tool. */
+void doubt_start(const finder_settings &settings, const Pool &pool, int n_contexts,
+                 random_state &random, finder_report *report, Found &found)
+{
+    finder_settings from_nothing = settings;
+    finder_report of_anew{};
+    bool explained = report->outcome == FINDER_FOUND;
+
+    from_nothing.start = nullptr;
+    Found anew = find(from_nothing, {pool.view()}, random, &of_anew);
+    bool better =
+        of_anew.outcome == FINDER_FOUND && (!explained || anew.data.contexts < n_contexts);
+    if (!better && explained)
+        return;
+    if (!better && is_refuted(settings, n_contexts, *report, anew, of_anew)) {
+        of_anew.outcome = FINDER_REFUTED;
+        better = true;
+    }
+    of_anew.starts += report->starts;
+    if (!better) {
+        report->starts = of_anew.starts;
+        return;
+    }
+    *report = of_anew;
+    found = anew;
+    found.data.settings = &settings;
+}
+
+/* Those that have judged teach, too. */
+void teach_all(Found &found, random_state &random, finder_report *report)
+{
+    for (Sample &sample : found.data.samples)
+        sample.apart = false;
+    solve(found.data, 60, true, found.best);
+    found.best.body.length = length_of(found.data, found.best);
+    report->doubt = judge(found.data, found.noise, random, found.best);
+    std::snprintf(report->why, sizeof report->why, "found from %d samples", report->samples);
+}
+
+int count(const std::vector<learner_samples> &tools)
+{
+    int n = 0;
+
+    for (const learner_samples &tool : tools)
+        n += tool.n;
+    return n;
+}
+
+/* With enough samples of tools that are rigid, or of any. */
+void search_in(const finder_settings &settings, std::vector<learner_samples> &rigid,
+               const std::vector<learner_samples> &bent, const Pool &pool, random_state &random,
+               finder_report *report, struct body *body)
+{
+    const int n_contexts = (int)(rigid.size() + bent.size());
+    Found found = find(settings, rigid, random, report);
+
+    if (was_believed(settings.start) &&
+        (report->outcome != FINDER_FOUND || count(bent) > count(rigid)))
+        doubt_start(settings, pool, n_contexts, random, report, found);
+    if (report->outcome == FINDER_FOUND) {
+        if (report->samples < count(rigid) + count(bent))
+            add_tools(settings, bent, rigid, random, report, found);
+        teach_all(found, random, report);
+    }
+    if (!report->any_body)
+        return;
+    char unused[160];
+    struct body come_to;
+    fill_body(found.data, found.best, found.noise, *report, &come_to);
+    report->any_body = body_check(&come_to, unused, sizeof unused) == 0;
+    if (report->any_body)
+        *body = come_to;
 }
 
 } // namespace
@@ -306,39 +311,22 @@ enum finder_outcome finder_search(const struct finder_settings *settings,
     std::vector<learner_samples> rigid;
     std::vector<learner_samples> bent;
     random_state random = random_seed(settings->seed);
-    int n = 0;
 
     *report = {};
     for (int c = 0; c < n_contexts; c++)
         (contexts[c].rigid ? rigid : bent).push_back(contexts[c]);
-    for (const learner_samples &tool : rigid)
-        n += tool.n;
-    if (n < fewest) { /* what bends is better than nothing */
-        for (const learner_samples &tool : bent)
-            n += tool.n;
+    if (count(rigid) < fewest) { /* what bends is better than nothing */
         rigid.insert(rigid.end(), bent.begin(), bent.end());
         bent.clear();
     }
-    if (n < fewest) {
-        report->samples = n;
+    if (count(rigid) < fewest) {
+        report->samples = count(rigid);
         report->outcome = FINDER_NOT_YET;
         report->error = report->doubt = INFINITY;
-        std::snprintf(report->why, sizeof report->why, "%d samples are too few", n);
+        std::snprintf(report->why, sizeof report->why, "%d samples are too few", report->samples);
         return FINDER_NOT_YET;
     }
-    Found found = find(*settings, rigid, random, report);
-    if (report->outcome != FINDER_FOUND) {
-        if (report->any_body)
-            fill_body(found.data, found.best, found.noise, *report, body);
-        return report->outcome;
-    }
-    add_tools(*settings, bent, rigid, random, report, found);
-    for (Sample &sample : found.data.samples) /* they have judged: now they teach */
-        sample.apart = false;
-    solve(found.data, 60, true, found.best);
-    found.best.body.length = length_of(found.data, found.best);
-    report->doubt = judge(found.data, found.noise, random, found.best);
-    fill_body(found.data, found.best, found.noise, *report, body);
-    std::snprintf(report->why, sizeof report->why, "found from %d samples", report->samples);
+    search_in(*settings, rigid, bent, Pool(settings->n_joints, contexts, n_contexts), random,
+              report, body);
     return report->outcome;
 }

@@ -35,6 +35,14 @@ double misfit(const Data &data, const Candidate &candidate, bool apart, double g
 namespace
 {
 
+/* Where no sample is, ten times the doubt is allowed: samples of there will come, and until then
+ * the body's covariance says how far off it may be. A body whose axes are not known is off by more.
+ */
+constexpr double beyond = 0.1;
+/* Of postures that samples come from, and of those that the robot may use, so many can be seen. */
+constexpr double most_seen = 0.5;
+constexpr double some_seen = 0.1;
+
 /* Directions that no sample tells: a joint's point slides along its axis, and what follows it back;
  * arm and neck go up together; the pitch's axis slides along itself. They are pinned, for whatever
  * stands on the body would otherwise carry a doubt that is none. */
@@ -136,26 +144,33 @@ Eigen::Vector3d spread_of(const Data &data)
     return (squares / n).cwiseSqrt().cwiseMax(1e-9);
 }
 
+/* What context 0 has at the joints q, as a sample of it; false where the eyes cannot look. */
+bool answer(const Data &data, const Candidate &candidate, const double *q, Sample &sample)
+{
+    chain_pose pose;
+    double tip[3];
+    double ignored[9];
+
+    sample = {q, nearest_output(data, q), 0, false, false};
+    chain_at(&candidate.body.chain, q, &pose);
+    mat3_apply(pose.turn[data.n], candidate.tips[0].data(), tip);
+    vec3_add(1, pose.p, tip);
+    return body_output(&candidate.body, tip, sample.x.data(), ignored);
+}
+
 /* Squared standard deviations of what context 0 has at the joints q, over `spread`, their mean;
  * below zero where the eyes cannot look. */
 double variance_at(const Data &data, const Candidate &candidate, const Eigen::MatrixXd &root,
                    const Eigen::Vector3d &spread, const double *q)
 {
     const int n = data.unknowns();
-    Sample sample{q, nearest_output(data, q), 0, false, false};
-    chain_pose pose;
-    double tip[3];
-    double ignored[9];
+    Sample sample;
     double left[3];
     double by_tip[9];
     std::vector<double> by_unknowns(3 * (size_t)n);
 
-    chain_at(&candidate.body.chain, q, &pose);
-    mat3_apply(pose.turn[data.n], candidate.tips[0].data(), tip);
-    vec3_add(1, pose.p, tip);
-    if (!body_output(&candidate.body, tip, sample.x.data(), ignored) ||
-        !residual(data, candidate.body, candidate.tips[0], sample, left, by_unknowns.data(),
-                  by_tip))
+    if (!answer(data, candidate, q, sample) || !residual(data, candidate.body, candidate.tips[0],
+                                                         sample, left, by_unknowns.data(), by_tip))
         return -1;
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, root.rows());
     J.leftCols(n) = Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>>(
@@ -164,7 +179,41 @@ double variance_at(const Data &data, const Candidate &candidate, const Eigen::Ma
     return (data.noise.cwiseQuotient(spread).asDiagonal() * (J * root)).squaredNorm() / 3;
 }
 
+/* The mean of `square` over postures in a range; those where it is below zero, where nothing can be
+ * seen, are left out. Infinite when fewer than `least` of them, as a share, are left. */
+template <typename Square>
+double mean_over(const Data::Range &range, random_state &random, double least, Square square)
+{
+    constexpr int postures = 200;
+    std::vector<double> q(range.low.size());
+    double sum = 0;
+    int seen = 0;
+
+    for (int p = 0; p < postures; p++) {
+        for (size_t i = 0; i < q.size(); i++)
+            q[i] = random_uniform(&random, range.low[i], range.high[i]);
+        double one = square(q.data());
+        sum += std::max(one, 0.0);
+        seen += one >= 0;
+    }
+    return seen > least * postures ? sum / seen : INFINITY;
+}
+
 } // namespace
+
+double distance(const Data &data, const Candidate &one, const Candidate &other)
+{
+    const Eigen::Vector3d spread = spread_of(data);
+    random_state random = random_seed(0);
+
+    return std::sqrt(mean_over(data.seen, random, most_seen, [&](const double *q) {
+        Sample here;
+        Sample there;
+        if (!answer(data, one, q, here) || !answer(data, other, q, there))
+            return -1.0;
+        return (here.x - there.x).cwiseQuotient(spread).squaredNorm() / 3;
+    }));
+}
 
 /* What stands on the body has tips of its own, which give way to the chain as the known tips do: so
  * the body's covariance is that of the chain with these tips given. The doubt is that of all
@@ -176,22 +225,16 @@ double judge(const Data &data, double scale, random_state &random, Candidate &ca
     Eigen::MatrixXd C = information(data, scale, candidate);
     Eigen::MatrixXd given_tips = root_of_inverse(C.topLeftCorner(n, n));
     Eigen::MatrixXd all = root_of_inverse(C);
-    std::vector<double> q((size_t)data.n);
-    double sum = 0;
-    int seen = 0;
-    constexpr int postures = 200;
 
     for (int i = 0; i < n; i++)
         for (int k = 0; k <= i; k++)
             candidate.body.root[i * (i + 1) / 2 + k] = given_tips(i, k);
-    for (int p = 0; p < postures; p++) {
-        for (size_t i = 0; i < q.size(); i++)
-            q[i] = data.joint_middle[i] + random_uniform(&random, -1, 1) * data.joint_range[i];
-        double variance = variance_at(data, candidate, all, spread, q.data());
-        sum += std::max(variance, 0.0);
-        seen += variance >= 0;
-    }
-    return seen > postures / 2 ? std::sqrt(sum / seen) : 1e9;
+    const auto variance = [&](const double *q) {
+        return variance_at(data, candidate, all, spread, q);
+    };
+    double seen = std::sqrt(mean_over(data.seen, random, most_seen, variance));
+    double whole = std::sqrt(mean_over(data.whole, random, some_seen, variance));
+    return std::min(std::max(seen, beyond * whole), 1e9);
 }
 
 } // namespace finder

@@ -14,8 +14,13 @@ namespace finder
 double misfit(const Data &data, const Candidate &candidate, bool apart, double gross = 0.1);
 
 /* Fills the body's covariance, with noise `scale` times the settings', and returns its doubt: the
- * standard deviation of a tip over the range of the joints, rms, in units of length. */
+ * standard deviation of a tip over the range that the joints went through, rms, in units of length,
+ * or a tenth of that over the range that the robot may use, whichever is more. */
 double judge(const Data &data, double scale, random_state &random, Candidate &candidate);
+
+/* How far what two candidates say lies apart over the range that samples went through, rms, in
+ * units of length; infinite where one of them sees nothing in most of it. */
+double distance(const Data &data, const Candidate &one, const Candidate &other);
 
 } // namespace finder
 

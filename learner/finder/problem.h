@@ -28,7 +28,11 @@ struct Data {
     double length;         /* rms distance of places from their middle */
     double unit;           /* the same, or 1 where a joint slides: by how much its own unit says */
     Eigen::Vector3d noise; /* in the problem's units */
-    std::vector<double> joint_middle, joint_range;
+    struct Range {
+        std::vector<double> low, high;
+    };
+    Range seen;  /* that samples went through */
+    Range whole; /* and that the robot may use */
     double disparity_middle, disparity_unit;
     std::vector<Sample> samples;
 

@@ -6,9 +6,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { NAME_AT = 8, MOST_STARTS = 10000, MOST_SAMPLES = CONTEXTS_KEPT };
 
+_Static_assert(sizeof((reach_body_request_t *)0)->low == sizeof((struct finder_settings *)0)->low,
+               "body_request_t.low and high");
 _Static_assert(BODY_NUMBERS == 5841, "body_t.numbers and body_request_t.n_numbers");
 _Static_assert(MOST_SAMPLES == 512 && (int)MOST_SAMPLES >= (int)CONTEXTS_KEPT,
                "body_request_t.count");
@@ -49,6 +52,8 @@ static const char *settings_fault(const reach_body_request_t *request)
             return "noise is out of range";
     if (!(fabs(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) - 1) < 1e-9))
         return "gravity is no unit vector";
+    if (!usable(request->low, LEARNER_MAX_INPUTS) || !usable(request->high, LEARNER_MAX_INPUTS))
+        return "low or high is not finite, or too large";
     if (request->starts < 1 || request->starts > MOST_STARTS)
         return "starts is out of range";
     return NULL;
@@ -111,6 +116,8 @@ static void take_settings(struct question *question)
         settings->noise[i] = request->noise[i];
         settings->gravity[i] = request->gravity[i];
     }
+    memcpy(settings->low, request->low, sizeof settings->low);
+    memcpy(settings->high, request->high, sizeof settings->high);
 }
 
 static void take_samples(struct question *question)

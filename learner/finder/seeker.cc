@@ -38,12 +38,20 @@ bool seeker_look(struct seeker *seeker, struct learner *learner)
     seeker->settings.start = now ? now : seeker->any_body ? &start : nullptr;
     seeker->settings.seed++;
     seeker->searches++;
-    bool found = finder_search(&seeker->settings, contexts, n_contexts, &seeker->body,
-                               &seeker->report) == FINDER_FOUND &&
+    finder_outcome outcome =
+        finder_search(&seeker->settings, contexts, n_contexts, &seeker->body, &seeker->report);
+    bool found = outcome == FINDER_FOUND &&
                  learner_give_body(learner, &seeker->body, ignored, sizeof ignored) == 0;
     seeker->any_body = seeker->any_body || seeker->report.any_body;
     seeker->found += found;
     seeker->seconds += processor_seconds() - begin;
+    if (outcome == FINDER_REFUTED) {
+        static const struct body none = {};
+        seeker->any_body = seeker->report.any_body;
+        learner_give_body(learner, &none, ignored, sizeof ignored);
+        seeker->schedule = body_schedule_begin();
+        return true;
+    }
     if (found && seeker->found == 1) {
         seeker->found_at = learned;
         seeker->found_seconds = seeker->seconds;

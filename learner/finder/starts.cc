@@ -35,8 +35,10 @@ Candidate blank(const Data &data)
     body.sees = data.settings->sees;
     body.length = 1;
     for (int i = 0; i < data.n; i++) {
-        body.chain.middle[i] = data.joint_middle[(size_t)i];
-        body.range[i] = data.joint_range[(size_t)i];
+        const double low = data.seen.low[(size_t)i];
+        const double high = data.seen.high[(size_t)i];
+        body.chain.middle[i] = (low + high) / 2;
+        body.range[i] = (high - low) / 2;
         body.chain.axis[i][2] = 1;
     }
     for (int i = 0; i < BODY_OUTPUTS; i++) {

@@ -4,7 +4,6 @@
 
 #include "common/program/log.h"
 
-#include <errno.h>
 #include <string.h>
 
 static const int64_t first_patience_us = 3000000; /* until somebody says that the request came */
@@ -20,22 +19,6 @@ bool model_store_seeks(const struct model_store_settings *settings)
            settings->learner.features == LEARNER_BODY;
 }
 
-static enum search_stage stage_of(const struct model_store *store)
-{
-    return (enum search_stage)atomic_load_explicit(&store->search.stage, memory_order_acquire);
-}
-
-static void set_stage(struct model_store *store, enum search_stage stage)
-{
-    atomic_store_explicit(&store->search.stage, (int)stage, memory_order_release);
-}
-
-static void end_search(struct model_store *store, enum model_store_search outcome)
-{
-    atomic_store_explicit(&store->search.outcome, (int)outcome, memory_order_relaxed);
-    set_stage(store, SEARCH_NONE);
-}
-
 void model_store_search_anew(struct model_store *store, const struct learner *learner)
 {
     store->search.schedule = body_schedule_begin();
@@ -46,14 +29,17 @@ void model_store_learned(struct model_store *store, const struct learner *learne
 {
     struct search *search = &store->search;
 
-    if (!model_store_seeks(&store->settings) || stage_of(store) != SEARCH_NONE ||
-        !body_schedule_due(&search->schedule, learner))
+    if (!model_store_seeks(&store->settings) || search_stage_of(store) != SEARCH_NONE)
+        return;
+    if (atomic_exchange_explicit(&search->again, false, memory_order_acquire))
+        search->schedule = body_schedule_begin();
+    if (!body_schedule_due(&search->schedule, learner))
         return;
     body_schedule_searched(&search->schedule, learner);
     search->seq++;
     search->epoch = store->epoch;
     search->at = store->number;
-    set_stage(store, SEARCH_ASKED);
+    search_set_stage(store, SEARCH_ASKED);
 }
 
 void model_store_begin_forgetting(struct model_store *store)
@@ -70,7 +56,7 @@ void model_store_tell_body(struct model_store *store)
 static bool may_await(const struct model_store *store)
 {
     return model_store_stage(store) == FREE &&
-           (store->search.forget || stage_of(store) == SEARCH_FOUND);
+           (store->search.forget || search_stage_of(store) == SEARCH_FOUND);
 }
 
 /* What housekeeping gave the shadow, as the trace has it. */
@@ -79,16 +65,18 @@ static void note_given(struct model_store *store)
     struct model_store_moment *moment = &store->moment;
     struct search *search = &store->search;
 
-    if (!search->forget) {
+    if (!search_gives_none(search)) {
         moment->body = search->seq;
         moment->body_checksum = search->answer.checksum;
-        set_stage(store, SEARCH_NONE);
+        search_set_stage(store, SEARCH_NONE);
         return;
     }
     moment->body = MODEL_STORE_BODY_TAKEN;
-    moment->result = MODEL_STORE_DONE;
+    if (search->forget)
+        moment->result = MODEL_STORE_DONE;
     search->forget = false;
     search->schedule = body_schedule_begin();
+    search_set_stage(store, SEARCH_NONE);
 }
 
 bool model_store_poll_body(struct model_store *store, bool *awaited)
@@ -120,8 +108,8 @@ void model_store_begin_with(struct model_store *store)
 void model_store_drop_search(struct model_store *store)
 {
     model_store_begin_with(store);
-    if (stage_of(store) != SEARCH_NONE)
-        end_search(store, MODEL_STORE_NO_SEARCH);
+    if (search_stage_of(store) != SEARCH_NONE)
+        search_end(store, MODEL_STORE_NO_SEARCH);
 }
 
 void model_store_search_if_reached(struct model_store *store, int64_t now)
@@ -129,7 +117,7 @@ void model_store_search_if_reached(struct model_store *store, int64_t now)
     struct search *search = &store->search;
     struct body_search wanted = {.settings = finder_settings_of(&store->settings.learner)};
 
-    if (stage_of(store) != SEARCH_ASKED)
+    if (search_stage_of(store) != SEARCH_ASKED)
         return;
     if (search->epoch != store->shadow_epoch) {
         model_store_drop_search(store);
@@ -144,8 +132,9 @@ void model_store_search_if_reached(struct model_store *store, int64_t now)
     wanted.n_contexts = body_schedule_samples(store->shadow, wanted.contexts);
     search->sent_at = search->asked_at = now;
     search->came = false;
+    search->changes_before = learner_get_body_change(store->shadow).changes;
     store->settings.finder->ask(store->settings.finder->user, &wanted);
-    set_stage(store, SEARCH_SENT);
+    search_set_stage(store, SEARCH_SENT);
 }
 
 static void say_found(const struct body_answer *answer)
@@ -156,6 +145,19 @@ static void say_found(const struct body_answer *answer)
              100 * answer->report.doubt);
 }
 
+/* What the next search may begin with: never a body that was refuted. */
+static void keep_candidate(struct search *search)
+{
+    const struct finder_report *report = &search->answer.report;
+
+    if (report->outcome == FINDER_REFUTED)
+        search->any_candidate = false;
+    if (!report->any_body)
+        return;
+    search->any_candidate = true;
+    search->candidate = search->answer.body;
+}
+
 static void take_report(struct model_store *store)
 {
     const struct body_answer *answer = &store->search.answer;
@@ -163,30 +165,25 @@ static void take_report(struct model_store *store)
     switch (answer->report.outcome) {
     case FINDER_FOUND:
         say_found(answer);
-        set_stage(store, SEARCH_FOUND);
+        search_set_stage(store, SEARCH_FOUND);
+        break;
+    case FINDER_REFUTED:
+        keep_candidate(&store->search);
+        if (learner_body(store->shadow))
+            search_set_stage(store, SEARCH_FOUND);
+        else
+            search_end(store, MODEL_STORE_NOT_YET);
         break;
     case FINDER_NOT_YET:
-        store->search.any_candidate = store->search.any_candidate || answer->report.any_body;
-        if (answer->report.any_body)
-            store->search.candidate = answer->body;
+        keep_candidate(&store->search);
         log_debug("no body yet: %s", answer->report.why);
-        end_search(store, MODEL_STORE_NOT_YET);
+        search_end(store, MODEL_STORE_NOT_YET);
         break;
     default:
         log_info("no body: %s", answer->report.why);
-        end_search(store, MODEL_STORE_NO_CHAIN);
+        search_end(store, MODEL_STORE_NO_CHAIN);
         break;
     }
-}
-
-/* What the shadow has come to see of its body. */
-static void look_at_body(struct model_store *store)
-{
-    double share[LEARNER_MAX_OUTPUTS] = {0};
-
-    learner_not_rigid(store->shadow, share);
-    for (int i = 0; i < BODY_OUTPUTS; i++)
-        atomic_store_explicit(&store->search.not_rigid[i], share[i], memory_order_relaxed);
 }
 
 static void say_changed(struct model_store *store)
@@ -209,16 +206,16 @@ static void take_answer(struct model_store *store)
 {
     struct search *search = &store->search;
 
-    if (stage_of(store) != SEARCH_SENT || search->answer.seq != search->seq)
+    if (search_stage_of(store) != SEARCH_SENT || search->answer.seq != search->seq)
         return; /* of a search that is over */
     search->came = true;
     search->absent = false;
     if (search->answer.kind == BODY_ANSWER_REPORT) {
-        look_at_body(store);
+        search_look_at_body(store);
         take_report(store);
     } else if (search->answer.kind == BODY_ANSWER_REFUSED) {
         log_error("reach-finder refuses to search: %s", search->answer.report.why);
-        end_search(store, MODEL_STORE_NOT_YET);
+        search_end(store, MODEL_STORE_NOT_YET);
     }
 }
 
@@ -233,11 +230,11 @@ static void lose_patience(struct model_store *store, int64_t now)
             log_warning("no reach-finder is on the bus, so that no body is found; polynomials go "
                         "on");
         search->absent = true;
-        end_search(store, MODEL_STORE_NO_FINDER);
+        search_end(store, MODEL_STORE_NO_FINDER);
     } else if (now - search->sent_at > search_us) {
         log_warning("a search for the body has taken more than %lld s; without it",
                     (long long)(search_us / 1000000));
-        end_search(store, MODEL_STORE_NOT_YET);
+        search_end(store, MODEL_STORE_NOT_YET);
     }
 }
 
@@ -250,11 +247,11 @@ void model_store_follow_search(struct model_store *store, int64_t now)
         return;
     model_store_tell_if_asked(store);
     say_changed(store);
-    if (stage_of(store) == SEARCH_FOUND)
+    if (search_stage_of(store) == SEARCH_FOUND)
         return;
-    while (stage_of(store) != SEARCH_FOUND && finder->take(finder->user, &search->answer))
+    while (search_stage_of(store) != SEARCH_FOUND && finder->take(finder->user, &search->answer))
         take_answer(store);
-    if (stage_of(store) != SEARCH_SENT)
+    if (search_stage_of(store) != SEARCH_SENT)
         return;
     if (now - search->asked_at > (search->came ? answer_us : again_us)) {
         search->asked_at = now;
@@ -270,45 +267,4 @@ void model_store_tell_if_asked(struct model_store *store)
     if (atomic_exchange_explicit(&store->search.tell, false, memory_order_acquire) &&
         learner_body(store->shadow))
         finder->tell(finder->user, learner_body(store->shadow));
-}
-
-/* Instead of what was found, or is still looked for: a body without joints. */
-static void give_none(struct model_store *store)
-{
-    model_store_begin_with(store);
-    end_search(store, MODEL_STORE_NO_SEARCH);
-    memset(&store->search.answer, 0, sizeof store->search.answer);
-    log_info("the body is forgotten; the search begins anew with the samples that are kept");
-}
-
-static void could_not_give(struct model_store *store)
-{
-    end_search(store, MODEL_STORE_NOT_YET);
-    model_store_set_stage(store, store->search.forget ? FAILED : FREE);
-    store->search.forget = false;
-}
-
-void model_store_give_body(struct model_store *store, int64_t now)
-{
-    const struct search *search = &store->search;
-    char why[200];
-
-    if (store->shadow_number != search->at)
-        return;
-    if (search->forget)
-        give_none(store);
-    if (model_store_lock_shadow(store)) {
-        log_error("cannot lock memory for a body: %s; raise LimitMEMLOCK", strerror(errno));
-    } else if (learner_give_body(store->shadow, &search->answer.body, why, sizeof why)) {
-        log_error("the body that was found is of no use: %s", why);
-    } else {
-        model_store_keep_body(store, now);
-        model_capture(&store->model, store->shadow);
-        if (!search->forget)
-            atomic_store_explicit(&store->search.outcome, MODEL_STORE_FOUND, memory_order_relaxed);
-        look_at_body(store);
-        model_store_set_stage(store, BODY_GIVEN);
-        return;
-    }
-    could_not_give(store);
 }

@@ -1,5 +1,6 @@
 /* The store's state, for the files that make it up: store/store.c (start, and what the loop thread
- * calls), keeping.c (what housekeeping does), bodies.c (bodies on their way, on both sides). */
+ * calls), keeping.c (what housekeeping does), bodies.c (bodies on their way, on both sides),
+ * giving.c (a body into the shadow). */
 #ifndef REACH_LEARNER_STORE_STORE_PRIVATE_H
 #define REACH_LEARNER_STORE_STORE_PRIVATE_H
 
@@ -41,14 +42,16 @@ struct search {
     uint64_t at; /* sample with which it became due, or at which the body is to be given */
     bool forget; /* the loop's until BODY_AWAITED: what is to be given is none */
     _Atomic bool tell;
+    _Atomic bool again; /* what was found came too late: the next search is due at once */
     _Atomic double not_rigid[BODY_OUTPUTS];
     uint64_t changes; /* of the body in use, that the log knows of */
 
     /* Housekeeping's. */
-    int64_t sent_at;  /* monotonic us: first */
-    int64_t asked_at; /* newest */
-    bool came;        /* somebody searches */
-    bool absent;      /* said: nobody does */
+    int64_t sent_at;         /* monotonic us: first */
+    int64_t asked_at;        /* newest */
+    bool came;               /* somebody searches */
+    bool absent;             /* said: nobody does */
+    uint64_t changes_before; /* of the body in use, when the search was asked for */
     struct body_answer answer;
     bool any_candidate; /* what a search came to that was not sure enough: */
     struct body candidate;
@@ -118,7 +121,10 @@ void model_store_begin_with(struct model_store *store);
 /* Housekeeping: the model was replaced. */
 void model_store_drop_search(struct model_store *store);
 
-/* keeping.c: for bodies.c. */
+/* giving.c: what the shadow has come to see of its body, for the report. */
+void search_look_at_body(struct model_store *store);
+
+/* keeping.c: for bodies.c and giving.c. */
 void model_store_keep_body(struct model_store *store, int64_t now);
 int model_store_lock_shadow(struct model_store *store);
 
@@ -133,6 +139,28 @@ static inline enum stage model_store_stage(const struct model_store *store)
 static inline void model_store_set_stage(struct model_store *store, enum stage stage)
 {
     atomic_store_explicit(&store->stage, (int)stage, memory_order_release);
+}
+
+static inline enum search_stage search_stage_of(const struct model_store *store)
+{
+    return (enum search_stage)atomic_load_explicit(&store->search.stage, memory_order_acquire);
+}
+
+static inline void search_set_stage(struct model_store *store, enum search_stage stage)
+{
+    atomic_store_explicit(&store->search.stage, (int)stage, memory_order_release);
+}
+
+static inline void search_end(struct model_store *store, enum model_store_search outcome)
+{
+    atomic_store_explicit(&store->search.outcome, (int)outcome, memory_order_relaxed);
+    search_set_stage(store, SEARCH_NONE);
+}
+
+/* What is to be given is none: somebody wants that, or the body in use was refuted. */
+static inline bool search_gives_none(const struct search *search)
+{
+    return search->forget || search->answer.report.outcome == FINDER_REFUTED;
 }
 
 #endif

@@ -65,7 +65,7 @@ class Body(Replay):
         self.assertEqual(early.returncode, 1)
         self.assertIn("no body is found: none yet", early.stderr)
         self.assertEqual(session.reachctl("forget-body").returncode, 1)
-        session.explore(60)
+        session.explore(90)
         self.assertEqual(session.bus.status.body, FOUND)
         shown = self.assert_works(session.reachctl("body"))
         self.assertRegex(shown, r"^7 joints, found from \d+ samples")

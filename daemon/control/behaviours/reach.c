@@ -26,11 +26,11 @@ static const int64_t patience_us = 1000000;
 static const double close = 0.05;  /* to the target, scaled: no detour would be shorter */
 static const double arrived = 0.1; /* rad from the imagined posture: the rest is the target's */
 
-/* A model that holds over the whole range of the joints can say how to get somewhere; in an image
- * the head decides what the target is in the end. */
-static bool imagines(const struct config *config)
+/* A body that is known holds over the whole range of the joints: it can say how to get somewhere,
+ * which polynomials cannot. In an image the head decides what the target is in the end. */
+static bool imagines(const struct senses *senses)
 {
-    return config->learner.features == LEARNER_BODY && !config->space.fixates;
+    return learner_body(senses->learner) && !senses->config->space.fixates;
 }
 
 /* Whether the arm gets no nearer on the straight way: the model's, and the arm's own, may differ.
@@ -65,8 +65,12 @@ static bool find_way(struct reach *reach, const double *target, const struct sen
 {
     double farthest = 0;
 
+    if (!imagines(senses)) { /* nor does it follow what a body said that is gone by now */
+        go_straight(reach, senses);
+        return false;
+    }
     if (reach->way == WAY_STRAIGHT) {
-        if (!imagines(senses->config) || !is_stuck(reach, target, senses))
+        if (!is_stuck(reach, target, senses))
             return false;
         reach->way = WAY_IMAGINED;
         imagine_detour(&reach->imagine, target, senses);
@@ -137,7 +141,7 @@ static bool reach_step(struct behaviour *behaviour, const struct senses *senses,
         return false;
     case TARGETS_PRESENT:
         go_straight(reach, senses);
-        if (imagines(config))
+        if (imagines(senses))
             reach->way = WAY_IMAGINED;
         imagine_begin(&reach->imagine, target, senses);
         break;

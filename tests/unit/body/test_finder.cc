@@ -1,13 +1,11 @@
 /* The finder on arms that are made up: it finds chains, and says when there is none or it cannot
  * know yet. */
-#include "learner/finder/finder.h"
+#include "finder_bed.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <memory>
-#include <vector>
 /* After the C++ headers: Check takes the word `fail`. */
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"
@@ -15,34 +13,6 @@
 
 namespace
 {
-
-const double tip[3] = {0.05, 0.1, 0.0};
-
-struct Samples {
-    int n_joints;
-    std::vector<double> z, x;
-
-    void add(const double *q, const double *place)
-    {
-        z.insert(z.end(), q, q + n_joints);
-        x.insert(x.end(), place, place + 3);
-    }
-    learner_samples view() const
-    {
-        return {true, int(x.size() / 3), z.data(), x.data()};
-    }
-};
-
-void add_random(Samples &samples, const body &truth, int n)
-{
-    for (int k = 0; k < n; k++) {
-        double q[CHAIN_MAX_JOINTS];
-        double place[3];
-        random_joints(&truth, q);
-        arm_sample(&truth, tip, q, place);
-        samples.add(q, place);
-    }
-}
 
 /* Each joint alone, from the middle of its range, where an odd number of them passes. */
 void add_sweeps(Samples &samples, const body &truth, int each)
@@ -54,70 +24,14 @@ void add_sweeps(Samples &samples, const body &truth, int each)
             for (int j = 0; j < truth.chain.n; j++)
                 q[j] = truth.chain.middle[j];
             q[i] += truth.range[i] * (2.0 * k / (each - 1) - 1);
-            arm_sample(&truth, tip, q, place);
+            arm_sample(&truth, finder_bed_tip, q, place);
             samples.add(q, place);
         }
 }
 
-struct Answer {
-    finder_outcome outcome;
-    finder_report report;
-    std::unique_ptr<body> found = std::make_unique<body>();
-};
-
-Answer search(const Samples &samples)
-{
-    Answer answer;
-    learner_samples view = samples.view();
-    finder_settings settings = {};
-
-    settings.n_joints = samples.n_joints;
-    for (double &noise : settings.noise)
-        noise = ARM_NOISE;
-    settings.gravity[2] = -1;
-    settings.seed = 1;
-    settings.starts = 40;
-    std::memset(answer.found.get(), 0, sizeof *answer.found);
-    answer.outcome = finder_search(&settings, &view, 1, answer.found.get(), &answer.report);
-    std::printf("%d samples: outcome %d, error %.2f, doubt %.4f, %d starts: %s\n",
-                answer.report.samples, answer.outcome, answer.report.error, answer.report.doubt,
-                answer.report.starts, answer.report.why);
-    std::fflush(stdout);
-    ck_assert_int_eq(answer.outcome, answer.report.outcome);
-    ck_assert_int_eq(answer.report.samples, view.n);
-    return answer;
-}
-
-/* rms distance over the whole range, of a learner that stands on what was found. */
-double error_of(const body &found, const Samples &samples, const body &truth)
-{
-    learner_config config = body_config(truth.chain.n, truth.sees, 16);
-    learner *learner = bed_create(&config);
-    char err[160];
-    double sum = 0;
-    const int queries = 200;
-
-    ck_assert_msg(learner_give_body(learner, &found, err, sizeof err) == 0, "%s", err);
-    learner_samples view = samples.view();
-    for (int k = 0; k < view.n; k++)
-        learner_update(learner, view.z + ptrdiff_t(k) * truth.chain.n, view.x + ptrdiff_t(3) * k);
-    for (int k = 0; k < queries; k++) {
-        double q[CHAIN_MAX_JOINTS];
-        double place[3];
-        learner_solution one{};
-        random_joints(&truth, q);
-        arm_output(&truth, tip, q, place);
-        ck_assert_int_eq(learner_predict_single(learner, q, &one), 1);
-        for (int i = 0; i < 3; i++)
-            sum += (one.value[i] - place[i]) * (one.value[i] - place[i]);
-    }
-    bed_clean();
-    return std::sqrt(sum / queries);
-}
-
 void expect_found(const Samples &samples, const body &truth, double within)
 {
-    Answer answer = search(samples);
+    Answer answer = search(truth, samples);
     ck_assert_int_eq(answer.outcome, FINDER_FOUND);
     double error = error_of(*answer.found, samples, truth);
     std::printf("error %.2f mm\n", 1e3 * error);
@@ -153,7 +67,7 @@ START_TEST(a_joint_that_slides_is_found_from_sweeps)
     truth.range[1] = 0.3;
     add_sweeps(samples, truth, 13);
     add_random(samples, truth, 20);
-    Answer answer = search(samples);
+    Answer answer = search(truth, samples);
     ck_assert_int_eq(answer.outcome, FINDER_FOUND);
     for (int i = 0; i < 4; i++)
         ck_assert_int_eq(answer.found->chain.slides[i], i == 1);
@@ -185,6 +99,7 @@ Eigen::Vector3d soft_tip(const double *q)
 START_TEST(a_soft_arm_is_no_chain)
 {
     bed_seed();
+    body arm = made_up_arm(4, false); /* its noise alone */
     Samples samples{4, {}, {}};
     for (int k = 0; k < 150; k++) {
         double q[4];
@@ -195,7 +110,7 @@ START_TEST(a_soft_arm_is_no_chain)
             place[i] += ARM_NOISE * bed_normal();
         samples.add(q, place.data());
     }
-    Answer answer = search(samples);
+    Answer answer = search(arm, samples);
     ck_assert_int_eq(answer.outcome, FINDER_NO_CHAIN);
     ck_assert_ptr_nonnull(std::strstr(answer.report.why, "off by"));
     ck_assert_int_eq(answer.found->chain.n, 0); /* it is left alone */
@@ -212,14 +127,14 @@ START_TEST(samples_along_a_line_do_not_tell)
         double place[3];
         for (int i = 0; i < 4; i++)
             q[i] = truth.chain.middle[i] + (k / 30.0 - 1) * (0.3 + 0.2 * i);
-        arm_sample(&truth, tip, q, place);
+        arm_sample(&truth, finder_bed_tip, q, place);
         samples.add(q, place);
     }
-    ck_assert_int_eq(search(samples).outcome, FINDER_NOT_YET);
+    ck_assert_int_eq(search(truth, samples).outcome, FINDER_NOT_YET);
 
     Samples few{4, {}, {}};
     add_random(few, truth, 14);
-    Answer answer = search(few);
+    Answer answer = search(truth, few);
     ck_assert_int_eq(answer.outcome, FINDER_NOT_YET);
     ck_assert_ptr_nonnull(std::strstr(answer.report.why, "too few"));
 }
@@ -233,9 +148,9 @@ START_TEST(the_same_samples_give_the_same_bytes)
     std::vector<double> one(BODY_NUMBERS);
     std::vector<double> other(BODY_NUMBERS);
     add_random(samples, truth, 30);
-    Answer first = search(samples);
+    Answer first = search(truth, samples);
     Samples copy = samples; /* at another address */
-    Answer second = search(copy);
+    Answer second = search(truth, copy);
     body_to_numbers(first.found.get(), one.data());
     body_to_numbers(second.found.get(), other.data());
     ck_assert(one == other);

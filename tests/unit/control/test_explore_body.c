@@ -68,12 +68,12 @@ static void watch(void)
     moving_at_once = moving > moving_at_once ? moving : moving_at_once;
 }
 
-static void begin(int64_t seed)
+static void begin_with(struct config config, int64_t seed)
 {
     struct learner_config learner;
 
     make_arm(seed);
-    world_begin(wide_config(), noise);
+    world_begin(config, noise);
     world.robot.chain = &chain;
     for (int i = 0; i < 7; i++)
         world.robot.q[i] = 0.5 * (world.config.arm_min.value[i] + world.config.arm_max.value[i]);
@@ -82,6 +82,11 @@ static void begin(int64_t seed)
     moving_at_once = 0;
     world.watch = watch;
     world_step();
+}
+
+static void begin(int64_t seed)
+{
+    begin_with(wide_config(), seed);
 }
 
 /* Until the behaviour is over; returns how long that takes, s. */
@@ -184,10 +189,56 @@ START_TEST(it_first_turns_each_joint_alone)
 }
 END_TEST
 
+enum { TRACK = 400 };
+
+/* Samples anywhere, learned without a search, then a target: where the joints go. */
+static void track_of(enum learner_features features, double (*track)[7])
+{
+    reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 20};
+    struct config config = wide_config();
+    struct random_state random = random_seed(5);
+    struct fake_robot there;
+
+    config.learner.features = features;
+    config.learner.capacity = 8; /* both have memory for that many */
+    begin_with(config, 1);
+    there = world.robot;
+    for (int k = 0; k < 300; k++) {
+        double position[3];
+        for (int i = 0; i < 7; i++)
+            there.q[i] = world.robot.q[i] + random_uniform(&random, -0.5, 0.5);
+        fake_robot_position(&there, position);
+        learner_update(tick_learner(world.tick), there.q, position);
+    }
+    fake_robot_position(&there, request.target[0]);
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    for (int tick = 0; tick < TRACK; tick++) {
+        world_step();
+        memcpy(track[tick], world.robot.q, sizeof track[tick]);
+    }
+    world_end();
+}
+
+/* Polynomials know nothing of where there are no samples: nobody imagines a way with them. */
+START_TEST(without_a_body_it_reaches_as_polynomials_do)
+{
+    static double with_none[TRACK][7], polynomial[TRACK][7];
+    double moved = 0;
+
+    track_of(LEARNER_BODY, with_none);
+    track_of(LEARNER_POLYNOMIAL, polynomial);
+    for (int i = 0; i < 7; i++)
+        moved = fmax(moved, fabs(polynomial[TRACK - 1][i] - polynomial[0][i]));
+    ck_assert_double_gt(moved, 0.1);
+    ck_assert_mem_eq(with_none, polynomial, sizeof polynomial);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {it_first_turns_each_joint_alone,
-                                  it_reaches_anywhere_after_150_samples};
+                                  it_reaches_anywhere_after_150_samples,
+                                  without_a_body_it_reaches_as_polynomials_do};
 
     return SUITE_RUN("exploring with a body to be found", tests);
 }

@@ -13,6 +13,7 @@
 /* The finder: what it is asked, and what it says. */
 struct body_bench_finder {
     bool absent; /* says nothing at all */
+    bool slow;   /* says that it searches, and no more */
     enum finder_outcome outcome;
     int asked, again; /* calls so far */
     int64_t seq;      /* of the newest search */
@@ -24,6 +25,9 @@ struct body_bench_finder {
 
 /* There is one of them at a time. */
 extern struct body_bench_finder body_bench_finder;
+
+/* The first sample since which all is seen 2 cm aside; UINT64_MAX: none. */
+extern uint64_t body_bench_moves_at;
 extern const struct finder_port body_bench_port;
 
 /* Settings as those of store_bench.h. */

@@ -152,6 +152,65 @@ START_TEST(a_search_under_way_is_given_up)
 }
 END_TEST
 
+static void tick(struct store_bench *bench)
+{
+    body_bench_tick(bench);
+    serve(bench);
+}
+
+/* The finder says that the body in use is none: it goes, and the search begins anew. */
+START_TEST(a_body_that_is_refuted_goes)
+{
+    struct store_bench bench = begin();
+    uint64_t given = ticks_until(&bench, true);
+    int before = body_bench_finder.asked;
+
+    body_bench_finder.outcome = FINDER_REFUTED;
+    uint64_t taken = ticks_until(&bench, false);
+    body_bench_finder.outcome = FINDER_FOUND;
+    ck_assert_int_eq(model_store_moment(bench.store).body, MODEL_STORE_BODY_TAKEN);
+    ck_assert_int_eq(model_store_moment(bench.store).result, MODEL_STORE_NOTHING);
+    ck_assert_int_eq(body_bench_finder.asked, before + 2); /* at once */
+    ck_assert_uint_eq(
+        store_bench_hash(&bench),
+        body_bench_hash_forgetting(&settings, model_samples(bench.learner), &given, 1, taken));
+    serve(&bench);
+    ck_assert_uint_eq(hash_after_a_kill(), store_bench_hash(&bench));
+    ticks_until(&bench, true);
+    ck_assert_int_eq(model_store_report(bench.store).search, MODEL_STORE_FOUND);
+    end(&bench);
+}
+END_TEST
+
+/* While a change of the body is followed, a search of before it may still be under way: what it
+ * finds is the body of before. */
+START_TEST(what_was_found_before_a_change_is_not_taken)
+{
+    struct store_bench bench = begin();
+
+    ticks_until(&bench, true);
+    for (int i = 0; i < 900; i++)
+        tick(&bench);
+    body_bench_finder.slow = true;
+    for (int asked = body_bench_finder.asked; body_bench_finder.asked == asked; tick(&bench))
+        ck_assert_uint_lt(model_samples(bench.learner), 3000);
+    body_bench_moves_at = model_samples(bench.learner) + 1;
+    while (learner_get_body_change(bench.learner).changes == 0) {
+        ck_assert_uint_lt(model_samples(bench.learner), body_bench_moves_at + 100);
+        tick(&bench);
+    }
+    int asked = body_bench_finder.asked;
+    body_bench_finder.slow = false;
+    for (int i = 0; body_bench_finder.asked == asked; i++) {
+        ck_assert_int_lt(i, 10); /* another search is due at once */
+        tick(&bench);
+        ck_assert_int_eq(model_store_moment(bench.store).body, 0);
+    }
+    ck_assert_double_gt(learner_body(bench.learner)->chain.offset[0][1], 0.019);
+    end(&bench);
+}
+END_TEST
+
 START_TEST(without_a_directory_it_is_the_same)
 {
     struct store_bench bench = begin();
@@ -211,6 +270,8 @@ int main(void)
         the_search_begins_anew,
         it_is_forgotten_on_disk_too,
         a_search_under_way_is_given_up,
+        a_body_that_is_refuted_goes,
+        what_was_found_before_a_change_is_not_taken,
         without_a_directory_it_is_the_same,
         the_body_in_use_is_told_when_asked,
         the_first_search_begins_with_a_given_body,
