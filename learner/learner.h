@@ -38,6 +38,13 @@ enum learner_features {
     LEARNER_BODY,       /* polynomial until a body is given, a few numbers on that body then */
 };
 
+/* When samples that no expert explains make a new one. */
+enum learner_births {
+    LEARNER_BIRTHS_AUTO,      /* published for LEARNER_LINEAR, evidence for all others */
+    LEARNER_BIRTHS_PUBLISHED, /* at once after `n_outliers`; experts stay for good */
+    LEARNER_BIRTHS_EVIDENCE,  /* of a candidate that has learned and foretold several */
+};
+
 /* How experts are gathered into solutions. */
 enum learner_clustering {
     LEARNER_CLUSTER_PUBLISHED, /* split while a chi-square test refuses */
@@ -123,11 +130,12 @@ struct learner_config {
     double prior_floor;                /* least share of the last four left by forgetting;
                                           0.01 (prior_sigma also never under d) */
 
-    int n_outliers; /* outliers in a row dropped before a birth, >= 0; 1 */
-    double p0;      /* outlier probability, 0 .. 1; 0.1 */
-    bool inherit;   /* a newborn starts from its parent's slopes; false */
-    double skip;    /* responsibilities under this are not learned, 0 .. 0.1;
-                       an expert misses less than this a sample; 1e-6 */
+    enum learner_births births; /* LEARNER_BIRTHS_AUTO */
+    int n_outliers;             /* outliers in a row that make no expert yet, >= 0; 1 */
+    double p0;                  /* outlier probability, 0 .. 1; 0.1 */
+    bool inherit;               /* a newborn starts from its parent's slopes; false */
+    double skip;                /* responsibilities under this are not learned, 0 .. 0.1;
+                                   an expert misses less than this a sample; 1e-6 */
 
     int n_solutions_max;                /* 1 .. LEARNER_MAX_SOLUTIONS; 16 */
     enum learner_clustering clustering; /* LEARNER_CLUSTER_PUBLISHED */

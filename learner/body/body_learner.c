@@ -171,7 +171,7 @@ static int experts(const void *self)
     const struct body_learner *learner = self;
 
     if (!learner->found)
-        return learner->meanwhile->state.M;
+        return learner_imle_ops.experts(learner->meanwhile);
     return learner->contexts->n < learner->contexts->most ? learner->contexts->n
                                                           : learner->contexts->most;
 }
@@ -180,7 +180,7 @@ static int saved_experts(const void *self)
 {
     const struct body_learner *learner = self;
 
-    return learner->meanwhile->state.M;
+    return imle_saved_experts(learner->meanwhile);
 }
 
 /* What the contexts have kept waits for another body. */

@@ -49,8 +49,8 @@ void body_save(const void *self, unsigned char *buffer)
 {
     const struct body_learner *learner = self;
     struct writer writer = {buffer};
-    double head[HEAD] = {learner->found, learner->contexts->n, learner->meanwhile->state.M,
-                         learner->contexts->births};
+    double head[HEAD] = {learner->found, learner->contexts->n,
+                         imle_saved_experts(learner->meanwhile), learner->contexts->births};
     double numbers[BODY_NUMBERS];
 
     write_trial(learner, head + 4);

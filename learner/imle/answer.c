@@ -87,6 +87,8 @@ static void lever_block(struct imle *m, int j)
 void imle_forget_answers(struct imle *m, int j)
 {
     m->query.answered[block_of(j)] = m->query.levered[block_of(j)] = false;
+    if (m->query.whitened == j)
+        m->query.whitened = -1;
 }
 
 static void center_features(struct imle *m, int j)

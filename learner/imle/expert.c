@@ -9,11 +9,14 @@
 #include <string.h>
 
 #include "common/base/elementary.h"
-#include "learner/imle/imle.h"
+#include "learner/imle/evidence.h"
 
 /* Weight and scatter that an expert has before its first sample. */
 static const double birth_weight = 1e-6;
 static const double birth_scatter = 1e-6;
+
+/* Where a vacant place's centre is: its density underflows at any query. */
+static const double out_of_reach = 1e30;
 
 static double *at(double *array, int expert, size_t size)
 {
@@ -33,6 +36,11 @@ static void refresh_psi(struct imle *m, int j)
     double *psi = at(m->state.psi, j, (size_t)m->D);
     const double *ssr = at(m->state.ssr, j, (size_t)m->D);
 
+    if (m->by_evidence) {
+        for (int i = 0; i < m->D; i++)
+            psi[i] = m->state.psi_bar[i] * imle_tolerance(s);
+        return;
+    }
     for (int i = 0; i < m->D; i++)
         psi[i] = isinf(s->prior_psi)
                      ? m->state.psi_bar[i]
@@ -125,11 +133,11 @@ static void first_regression(struct imle *m, int j, const double *x, int parent)
     for (size_t k = 0; k < p; k++)
         at(m->state.ridge, j, p)[k] = ridge;
     memset(at(m->state.ssr, j, D), 0, D * sizeof(double));
+    memset(at(m->state.residual, j, D), 0, D * sizeof(double));
 }
 
-void imle_expert_birth(struct imle *m, const double *z, const double *x, int parent)
+void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, int parent)
 {
-    int j = m->state.M++;
     size_t d = (size_t)m->d;
     double *spread = at(m->state.spread, j, whitener_row(m->d));
 
@@ -138,6 +146,9 @@ void imle_expert_birth(struct imle *m, const double *z, const double *x, int par
         .prior_sigma = m->config.prior_sigma,
         .prior_nu = m->config.prior_nu,
         .prior_psi = m->config.prior_psi,
+        .known = 1.0,
+        .error = 1.0,
+        .typical = 1.0,
     };
     memcpy(at(m->state.nu, j, d), z, d * sizeof(double));
     memcpy(at(m->state.nu0, j, d), z, d * sizeof(double));
@@ -148,6 +159,33 @@ void imle_expert_birth(struct imle *m, const double *z, const double *x, int par
             1.0 / sqrt(m->config.prior_sigma * m->state.sigma_bar[i] + birth_scatter);
     first_regression(m, j, x, parent);
     first_densities(m, j);
+}
+
+bool imle_vacant(const struct imle *m, int j)
+{
+    return m->state.strengths[j].last < 0.0;
+}
+
+void imle_expert_copy(struct imle *m, int from, int to)
+{
+    struct imle_part source, target;
+
+    m->state.strengths[to] = m->state.strengths[from];
+    for (int k = 0; imle_state_part(m, from, k, &source); k++) {
+        imle_state_part(m, to, k, &target);
+        memcpy(target.begin, source.begin, source.size * sizeof(double));
+    }
+    imle_expert_refresh(m, to);
+}
+
+void imle_expert_remove(struct imle *m, int j)
+{
+    double *nu = at(m->state.nu, j, (size_t)m->d);
+
+    m->state.strengths[j].last = -1.0;
+    for (int i = 0; i < m->d; i++)
+        nu[i] = out_of_reach;
+    imle_expert_refresh(m, j);
 }
 
 /* The share of an expert's past that is left when it takes responsibility h. */

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "common/base/elementary.h"
-#include "learner/imle/imle.h"
+#include "learner/imle/evidence.h"
 
 static const double farthest = 1e100;
 
@@ -98,6 +98,28 @@ static void average_answers(struct imle *m, struct fusion *fusion,
     }
 }
 
+/* Where births are by evidence, experts know what they have been wrong by: the variance is theirs,
+ * by their parts in the solution, and what they differ from it. */
+static void state_variance(const struct imle *m, const struct fusion *fusion,
+                           struct learner_solution *solution)
+{
+    if (!(fusion->W < farthest))
+        return;
+    memset(solution->variance, 0, sizeof solution->variance);
+    for (int a = 0; a < m->query.n_answers; a++) {
+        const struct imle_answer *answer = &m->query.answers[a];
+        if (answer->cluster != fusion->cluster)
+            continue;
+        double own = imle_stated_variance(m, answer->expert, answer->gamma);
+        const double *psi = psi_of(m, answer);
+        for (int i = 0; i < m->D; i++) {
+            double off = answer->xhat[i] - solution->value[i];
+            solution->variance[i] += answer->share / psi[i] / fusion->sum_precision[i] *
+                                     (m->state.psi_bar[i] * own + off * off);
+        }
+    }
+}
+
 /* d phi_j / d z */
 static void share_slope(const struct imle *m, const struct fusion *fusion,
                         const struct imle_answer *answer, double *dshare)
@@ -165,6 +187,8 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
     solution->members = weigh_members(m, &fusion, log_outlier);
     solution->weight = cluster_weight(m, &fusion);
     average_answers(m, &fusion, solution);
+    if (m->by_evidence)
+        state_variance(m, &fusion, solution);
     if (!m->config.average_jacobian)
         weight_slope(m, &fusion, z);
     for (int a = 0; a < m->query.n_answers; a++) {

@@ -18,6 +18,13 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
     m->small = m->p <= LEARNER_MAX_INPUTS;
 }
 
+static bool births_by_evidence(const struct learner_config *config)
+{
+    if (config->births == LEARNER_BIRTHS_AUTO)
+        return config->features != LEARNER_LINEAR;
+    return config->births == LEARNER_BIRTHS_EVIDENCE;
+}
+
 static int check_variances(const struct learner_config *config, char *err, size_t err_size)
 {
     for (int i = 0; i < config->n_inputs; i++) {
@@ -51,6 +58,10 @@ static int check_parameters(const struct learner_config *config, char *err, size
 
 static uint64_t hash_variances(const struct learner_config *config, uint64_t hash)
 {
+    double by_evidence = 1.0;
+
+    if (births_by_evidence(config))
+        hash = learner_hash(hash, &by_evidence, sizeof by_evidence);
     hash = learner_hash(hash, config->sigma0, (size_t)config->n_inputs * sizeof(double));
     return learner_hash(hash, config->psi0, (size_t)config->n_outputs * sizeof(double));
 }
@@ -79,6 +90,7 @@ static void *create(const struct learner_config *config, struct arena *arena)
     imle_forget(m);
     m->log_c_joint = -0.5 * chi2_quantile(m->d + m->D, 1.0 - config->p0);
     m->log_c_input = -0.5 * chi2_quantile(m->d, 1.0 - config->p0);
+    m->by_evidence = births_by_evidence(config);
     m->leader_threshold = chi2_quantile(m->D, config->leader_level);
     return m;
 }
@@ -103,11 +115,14 @@ static int predict_inverse(void *self, const double *x, struct learner_inverse *
     return imle_predict_inverse(self, x, inverse);
 }
 
-static int experts(const void *self)
+int imle_experts(const void *self)
 {
     const struct imle *m = self;
+    int n = 0;
 
-    return m->state.M;
+    for (int j = 0; j < m->state.M; j++)
+        n += !imle_vacant(m, j);
+    return n;
 }
 
 const struct learner_ops learner_imle_ops = {
@@ -120,7 +135,8 @@ const struct learner_ops learner_imle_ops = {
     .predict = predict,
     .predict_single = predict_single,
     .predict_inverse = predict_inverse,
-    .experts = experts,
+    .experts = imle_experts,
+    .saved_experts = imle_saved_experts,
     .state_size = imle_state_size,
     .save = imle_save,
     .load = imle_load,

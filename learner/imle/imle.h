@@ -28,11 +28,22 @@ struct imle_strengths {
     double prior_sigma; /* w_Sigma, w_nu, w_Psi after forgetting */
     double prior_nu;
     double prior_psi;
-    double turn; /* coordinate whose ridge is topped up next */
+    double turn;    /* coordinate whose ridge is topped up next */
+    double last;    /* number of the newest sample that was mostly its own; under 0: the place is
+                       vacant (births by evidence alone, as what follows) */
+    double row;     /* a candidate's newest samples that came in a row */
+    double score;   /* of a candidate: samples that it foretold, the older ones count less */
+    double known;   /* samples where it claimed to know, for */
+    double error;   /* the mean square of what it was wrong by there, in units of Psi_bar */
+    double again;   /* the mean product of two such errors, one after the other */
+    double typical; /* their mean size, the newest ones': large ones count less */
 };
 
 /* Most answers that one prediction weighs against each other: it bounds the time. */
 enum { IMLE_MOST_ANSWERS = 256 };
+
+/* Most experts to be at a time. */
+enum { IMLE_CANDIDATES = 2 };
 
 /* Experts to a block of the sums behind the shared priors. */
 enum { IMLE_SUM = 32 };
@@ -66,10 +77,13 @@ struct imle_answer {
 /* What is learned: it is saved, and grows with the samples. Arrays hold a part of each expert, one
  * after the other. */
 struct imle_state {
-    int M;
+    int M;          /* experts, and vacant places among them */
+    int candidates; /* experts to be, from the last place downwards (candidates.c) */
     int outliers_in_row;
+    double samples;    /* looked at so far */
     double *sigma_bar; /* d: the priors that all experts share */
     double *psi_bar;   /* D */
+    double *seen; /* D, D: mean and mean square deviation of all outputs (births by evidence) */
     struct imle_strengths *strengths;
     double *nu;          /* d: centre */
     double *nu0;         /* d: where it was born */
@@ -82,6 +96,7 @@ struct imle_state {
     double *ridge;       /* p: what forgetting has left of the ridge in C */
     double *ssr;         /* D: squared residuals */
     double *psi;         /* D: Psi_j */
+    double *residual;    /* D: what it was wrong by last, in units of sqrt(Psi_bar) */
 };
 
 /* What follows from the state, computed anew whenever an expert changes: neither saved nor loaded.
@@ -146,6 +161,7 @@ struct imle {
     double log_c_joint; /* log c_{d+D}, log c_d of the outlier densities */
     double log_c_input;
     double leader_threshold; /* chi-square quantile of the leader rule */
+    bool by_evidence;        /* how experts are born */
     struct imle_state state;
     struct imle_derived derived;
     struct imle_query query;
@@ -171,9 +187,16 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
 
 /* imle/expert.c ---------------------------------------------------------------------------- */
 
-/* Appends an expert at (z, x) whose slopes are those of `parent`, or zero for -1. M must be under
- * the capacity. phi are the features at z. */
-void imle_expert_birth(struct imle *m, const double *z, const double *x, int parent);
+/* An expert at (z, x) in place j, whose slopes are those of `parent`, or zero for -1. phi are the
+ * features at z. */
+void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, int parent);
+
+/* Place `to` gets what `from` has learned. */
+void imle_expert_copy(struct imle *m, int from, int to);
+
+/* Takes expert j away: its place is vacant, out of every query's reach. */
+void imle_expert_remove(struct imle *m, int j);
+bool imle_vacant(const struct imle *m, int j);
 
 /* Learns (z, x) with responsibility h in expert j; m->query.phi are the features at z. */
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x);
@@ -251,6 +274,13 @@ void imle_priors_update(struct imle *m);
 /* imle/learn.c ----------------------------------------------------------------------------- */
 enum learner_update_result imle_learn(struct imle *m, const double *z, const double *x);
 
+/* Distances and features of the sample; false when its features are too large to compute with. */
+bool imle_look_at_sample(struct imle *m, const double *z, const double *x);
+
+/* The expert that a newborn takes its slopes from: largest log t_j + log S_h of m->query.log_t. -1
+ * for none. */
+int imle_parent_of_newborn(const struct imle *m);
+
 /* imle/predict.c --------------------------------------------------------------------------- */
 int imle_predict(struct imle *m, const double *z, struct learner_prediction *prediction);
 int imle_predict_single(struct imle *m, const double *z, struct learner_solution *solution);
@@ -278,9 +308,20 @@ void imle_fuse(struct imle *m, const double *z, int cluster, double log_outlier,
 /* imle/inverse.c --------------------------------------------------------------------------- */
 int imle_predict_inverse(struct imle *m, const double *x, struct learner_inverse *inverse);
 
+/* imle/candidates.c ------------------------------------------------------------------------ */
+
+/* Where candidate k = 0, 1, ... is. */
+int imle_candidate_place(const struct imle *m, int k);
+
+/* imle/imle.c ------------------------------------------------------------------------------ */
+
+/* Experts, without vacant places. */
+int imle_experts(const void *self);
+
 /* imle/state.c ----------------------------------------------------------------------------- */
 /* As it was created: without experts. */
 void imle_forget(struct imle *m);
+int imle_saved_experts(const void *self);
 size_t imle_state_size(const void *self, int n_experts);
 void imle_save(const void *self, unsigned char *buffer);
 int imle_load(void *self, int n_experts, const unsigned char *buffer, char *err, size_t err_size);

@@ -195,6 +195,9 @@ int imle_predict_inverse(struct imle *m, const double *x, struct learner_inverse
     double C[LEARNER_MAX_SOLUTIONS][PACKED];
 
     for (int j = 0; j < m->state.M; j++) {
+        m->query.cost[j] = INFINITY;
+        if (imle_vacant(m, j))
+            continue;
         struct search s = {.expert = j};
         seek_input(m, &s, x);
         m->query.order[j] = j;

@@ -43,6 +43,7 @@ static size_t take_state(struct imle *m, struct arena *arena)
     const struct array arrays[] = {
         {SLOT(state.sigma_bar), numbers(d)},
         {SLOT(state.psi_bar), numbers(D)},
+        {SLOT(state.seen), numbers(2 * D)},
         {SLOT(state.strengths), n * sizeof *m->state.strengths},
         {SLOT(state.nu), numbers(n * d)},
         {SLOT(state.nu0), numbers(n * d)},
@@ -55,6 +56,7 @@ static size_t take_state(struct imle *m, struct arena *arena)
         {SLOT(state.ridge), numbers(n * p)},
         {SLOT(state.ssr), numbers(n * D)},
         {SLOT(state.psi), numbers(n * D)},
+        {SLOT(state.residual), numbers(n * D)},
     };
 
     return TAKE(arrays, arena);
@@ -135,7 +137,7 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
         {m->state.phibar, p, 0, false},     {m->state.xbar, D, 0, false},
         {m->state.W, p * D, 0, false},      {m->state.whitener, whitener_row(m->p), m->p, false},
         {m->state.ridge, p, 0, true},       {m->state.ssr, D, 0, false},
-        {m->state.psi, D, 0, true},
+        {m->state.psi, D, 0, true},         {m->state.residual, D, 0, false},
     };
 
     if (k >= (int)(sizeof parts / sizeof parts[0]))

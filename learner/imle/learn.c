@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/base/elementary.h"
-#include "learner/imle/imle.h"
+#include "learner/imle/evidence.h"
 
 /* An expert whose share is bounded by exp(-this) of the rest is not looked at closely: all of them
  * together change a responsibility by less than M exp(-this), 1e-10 of it for 1000 experts. */
@@ -22,8 +22,7 @@ struct shares {
     double largest;
 };
 
-/* Distances and features of the sample; false when its features are too large to compute with. */
-static bool look_at_sample(struct imle *m, const double *z, const double *x)
+bool imle_look_at_sample(struct imle *m, const double *z, const double *x)
 {
     imle_new_query(m, x);
     feature_map_evaluate(m->map, z, m->query.phi);
@@ -70,14 +69,15 @@ static bool is_outlier(struct imle *m, int best)
     return sum < 1.0;
 }
 
-/* The expert that a newborn takes its slopes from: largest log t_j + log S_h. -1 for none. */
-static int parent_of_newborn(const struct imle *m)
+int imle_parent_of_newborn(const struct imle *m)
 {
     int parent = -1;
 
     for (int j = 0; m->config.inherit && j < m->state.M; j++)
-        if (parent < 0 || m->query.log_t[j] + m->derived.gate.log_S[j] >
-                              m->query.log_t[parent] + m->derived.gate.log_S[parent])
+        if (imle_vacant(m, j))
+            continue;
+        else if (parent < 0 || m->query.log_t[j] + m->derived.gate.log_S[j] >
+                                   m->query.log_t[parent] + m->derived.gate.log_S[parent])
             parent = j;
     return parent;
 }
@@ -167,7 +167,9 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
 {
     int newborn = -1;
 
-    if (!look_at_sample(m, z, x))
+    if (m->by_evidence)
+        return imle_learn_by_evidence(m, z, x);
+    if (!imle_look_at_sample(m, z, x))
         return LEARNER_REFUSED;
     struct shares shares = gather_shares(m);
     if (is_outlier(m, shares.best)) {
@@ -178,7 +180,7 @@ enum learner_update_result imle_learn(struct imle *m, const double *z, const dou
         if (m->state.M == m->config.capacity)
             return LEARNER_FULL;
         newborn = m->state.M;
-        imle_expert_birth(m, z, x, parent_of_newborn(m));
+        imle_expert_birth(m, m->state.M++, z, x, imle_parent_of_newborn(m));
         m->query.q[newborn] = 0.0;
         shares = gather_shares(m);
     }

@@ -16,7 +16,7 @@ static const double farthest = 1e100;
 /* Gating and features of the query; false when there is nothing to predict from. */
 static bool look_at_query(struct imle *m, const double *z)
 {
-    if (m->state.M == 0)
+    if (imle_experts(m) == 0)
         return false;
     imle_new_query(m, NULL);
     feature_map_evaluate(m->map, z, m->query.phi);

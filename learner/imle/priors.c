@@ -25,6 +25,8 @@ static void sum_block(struct imle *m, int block)
 
     memset(sums, 0, (size_t)(m->d + m->D) * sizeof *sums);
     for (int j = block * IMLE_SUM; j < end; j++) {
+        if (imle_vacant(m, j))
+            continue;
         for (int i = 0; i < m->d; i++)
             sums[i] += m->derived.precision[j * m->d + i];
         for (int i = 0; i < m->D; i++)
@@ -38,7 +40,10 @@ void imle_priors_update(struct imle *m)
     const struct learner_config *config = &m->config;
     double precision[LEARNER_MAX_INPUTS] = {0.0};
     double per_psi[LEARNER_MAX_OUTPUTS] = {0.0};
+    int n = imle_experts(m);
 
+    if (n == 0)
+        return;
     for (int block = 0; block * IMLE_SUM < m->state.M; block++) {
         const double *sums = m->derived.prior_sums + (size_t)(block * (m->d + m->D));
         if (m->derived.stale[block])
@@ -49,9 +54,9 @@ void imle_priors_update(struct imle *m)
             per_psi[i] += sums[m->d + i];
     }
     for (int i = 0; i < m->d; i++)
-        m->state.sigma_bar[i] = shared_prior(m->state.M, config->prior_sigma, config->hyper_sigma,
+        m->state.sigma_bar[i] = shared_prior(n, config->prior_sigma, config->hyper_sigma,
                                              config->sigma0[i], precision[i]);
-    for (int i = 0; i < m->D; i++)
-        m->state.psi_bar[i] = shared_prior(m->state.M, config->prior_psi, config->hyper_psi,
-                                           config->psi0[i], per_psi[i]);
+    for (int i = 0; i < m->D && !m->by_evidence; i++)
+        m->state.psi_bar[i] =
+            shared_prior(n, config->prior_psi, config->hyper_psi, config->psi0[i], per_psi[i]);
 }

@@ -5,10 +5,29 @@
 
 #include "learner/imle/imle.h"
 
-/* Numbers of the mixture itself: both shared priors, and the outliers in a row. */
+/* Counts of the mixture itself, which follow both shared priors and where outputs were. */
+struct counts {
+    double outliers_in_row;
+    double candidates;
+    double samples;
+};
+
 static size_t shared_numbers(const struct imle *m)
 {
-    return (size_t)(m->d + m->D) + 1;
+    return (size_t)(m->d + 3 * m->D) + sizeof(struct counts) / sizeof(double);
+}
+
+int imle_saved_experts(const void *self)
+{
+    const struct imle *m = self;
+
+    return m->state.M + m->state.candidates;
+}
+
+/* Candidates are saved behind the experts. */
+static int place_of(const struct imle *m, int saved)
+{
+    return saved < m->state.M ? saved : imle_candidate_place(m, saved - m->state.M);
 }
 
 static size_t expert_numbers(const struct imle *m)
@@ -24,6 +43,9 @@ static size_t expert_numbers(const struct imle *m)
 void imle_forget(struct imle *m)
 {
     m->state.M = 0;
+    m->state.candidates = 0;
+    m->state.samples = 0.0;
+    memset(m->state.seen, 0, 2 * (size_t)m->D * sizeof(double));
     m->state.outliers_in_row = 0;
     memcpy(m->state.sigma_bar, m->config.sigma0, (size_t)m->d * sizeof(double));
     memcpy(m->state.psi_bar, m->config.psi0, (size_t)m->D * sizeof(double));
@@ -45,13 +67,15 @@ static unsigned char *put_bytes(unsigned char *to, const void *from, size_t byte
 void imle_save(const void *self, unsigned char *buffer)
 {
     const struct imle *m = self;
-    double outliers = m->state.outliers_in_row;
+    struct counts counts = {m->state.outliers_in_row, m->state.candidates, m->state.samples};
     struct imle_part part;
 
     buffer = put_bytes(buffer, m->state.sigma_bar, (size_t)m->d * sizeof(double));
     buffer = put_bytes(buffer, m->state.psi_bar, (size_t)m->D * sizeof(double));
-    buffer = put_bytes(buffer, &outliers, sizeof outliers);
-    for (int j = 0; j < m->state.M; j++) {
+    buffer = put_bytes(buffer, m->state.seen, 2 * (size_t)m->D * sizeof(double));
+    buffer = put_bytes(buffer, &counts, sizeof counts);
+    for (int i = 0; i < imle_saved_experts(m); i++) {
+        int j = place_of(m, i);
         buffer = put_bytes(buffer, &m->state.strengths[j], sizeof m->state.strengths[j]);
         for (int k = 0; imle_state_part(m, j, k, &part); k++)
             buffer = put_bytes(buffer, part.begin, part.size * sizeof(double));
@@ -64,16 +88,21 @@ static const unsigned char *get_bytes(void *to, const unsigned char *from, size_
     return from + bytes;
 }
 
-static void copy_state(struct imle *m, const unsigned char *buffer)
+static void copy_state(struct imle *m, int n_experts, const unsigned char *buffer)
 {
-    double outliers = 0.0;
+    struct counts counts;
     struct imle_part part;
 
     buffer = get_bytes(m->state.sigma_bar, buffer, (size_t)m->d * sizeof(double));
     buffer = get_bytes(m->state.psi_bar, buffer, (size_t)m->D * sizeof(double));
-    buffer = get_bytes(&outliers, buffer, sizeof outliers);
-    m->state.outliers_in_row = (int)outliers;
-    for (int j = 0; j < m->state.M; j++) {
+    buffer = get_bytes(m->state.seen, buffer, 2 * (size_t)m->D * sizeof(double));
+    buffer = get_bytes(&counts, buffer, sizeof counts);
+    m->state.outliers_in_row = (int)counts.outliers_in_row;
+    m->state.candidates = (int)counts.candidates;
+    m->state.M = n_experts - m->state.candidates;
+    m->state.samples = counts.samples;
+    for (int i = 0; i < n_experts; i++) {
+        int j = place_of(m, i);
         buffer = get_bytes(&m->state.strengths[j], buffer, sizeof m->state.strengths[j]);
         for (int k = 0; imle_state_part(m, j, k, &part); k++)
             buffer = get_bytes(part.begin, buffer, part.size * sizeof(double));
@@ -102,21 +131,30 @@ static bool strengths_fit(const struct imle *m, const struct imle_strengths *s)
 {
     return s->H > 0.0 && s->H < 1e15 && s->S > 0.0 && s->S < 1e15 && s->prior_sigma >= m->d &&
            s->prior_sigma < 1e15 && s->prior_nu >= 0.0 && s->prior_nu < 1e15 &&
-           s->prior_psi > 0.0 && s->turn >= 0.0 && s->turn < m->p;
+           s->prior_psi > 0.0 && s->turn >= 0.0 && s->turn < m->p && s->last >= -1.0 &&
+           s->last < 1e15 && s->row >= 0.0 && s->row < 1e15 && fabs(s->score) < 1e15;
 }
 
 /* The checksum guards against damage; this, against a state that never was one. */
 static bool state_fits(const struct imle *m, int n_experts, const unsigned char *buffer)
 {
     struct imle_part shared = {NULL, (size_t)(m->d + m->D), 0, true};
+    struct imle_part seen = {NULL, 2 * (size_t)m->D, 0, false};
     struct imle_strengths strengths;
     struct imle_part part;
-    double outliers = 0.0;
+    struct counts counts;
 
     if (!part_fits(&shared, buffer))
         return false;
-    buffer = get_bytes(&outliers, buffer + shared.size * sizeof(double), sizeof outliers);
-    if (!(outliers >= 0.0 && outliers <= m->config.n_outliers))
+    buffer += shared.size * sizeof(double);
+    if (!part_fits(&seen, buffer))
+        return false;
+    buffer = get_bytes(&counts, buffer + seen.size * sizeof(double), sizeof counts);
+    if (!(counts.outliers_in_row >= 0.0 && counts.outliers_in_row <= m->config.n_outliers) ||
+        !(counts.samples >= 0.0 && counts.samples < 1e15) ||
+        !(counts.candidates >= 0.0 &&
+          counts.candidates <= (m->by_evidence ? IMLE_CANDIDATES : 0)) ||
+        counts.candidates > n_experts)
         return false;
     for (int j = 0; j < n_experts; j++) {
         buffer = get_bytes(&strengths, buffer, sizeof strengths);
@@ -139,9 +177,8 @@ int imle_load(void *self, int n_experts, const unsigned char *buffer, char *err,
         snprintf(err, err_size, "it holds numbers that no state can have");
         return -1;
     }
-    m->state.M = n_experts;
-    copy_state(m, buffer);
-    for (int j = 0; j < m->state.M; j++)
-        imle_expert_refresh(m, j);
+    copy_state(m, n_experts, buffer);
+    for (int i = 0; i < n_experts; i++)
+        imle_expert_refresh(m, place_of(m, i));
     return 0;
 }

@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from . import body_accuracy, vision_accuracy
-from .body_studies import body_studies
+from .body_accuracy import HARD
+from .body_stream import BODY, POLYNOMIAL
 from .command_line import Parser
 from .curves import run as curves
 from .evaluation import EvaluationError, reach_eval
@@ -82,13 +83,14 @@ def run(options: argparse.Namespace) -> list[dict]:
     return rows
 
 
-def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
+def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.ArgumentParser:
     parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
     parser.add_argument(
         "--draws",
         type=int,
-        help="draws of every study; default 5, of a body 10, or 2 with --quick; pictures of each"
-        f" kind; default {vision_accuracy.COUNT}, or {vision_accuracy.QUICK_COUNT} with --quick",
+        help="draws of every study; default 5, of a body 10, of hard 3, or 2 with --quick; pictures"
+        f" of each kind; default {vision_accuracy.COUNT}, or {vision_accuracy.QUICK_COUNT} with"
+        " --quick",
     )
     parser.add_argument(
         "--quick",
@@ -98,12 +100,17 @@ def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--only",
         nargs="+",
-        choices=[*names, *bodies, vision_accuracy.STUDY],
+        choices=[
+            *names,
+            *(name for group in groups.items() for name in (group[0], *group[1])),
+            vision_accuracy.STUDY,
+        ],
         metavar="STUDY",
         default=[],
-        help=f"run only these studies, of {', '.join(names)}; or those of experts"
-        f" on a body: all ({bodies[0]}), or of {', '.join(bodies[1:])}; or hard pictures"
-        f" for reach-vision: {vision_accuracy.STUDY}",
+        help=f"run only these studies, of {', '.join(names)}; or those of experts on a body: all"
+        f" ({BODY}), or of {', '.join(groups[BODY])}; or those of streams that are hard for"
+        f" polynomials: all ({HARD}), or of {', '.join(groups[HARD])}; or hard pictures for"
+        f" reach-vision: {vision_accuracy.STUDY}",
     )
     parser.add_argument(
         "--curves",
@@ -124,31 +131,49 @@ def _parser(names: list[str], bodies: list[str]) -> argparse.ArgumentParser:
         help="of a body: the folder of the reference data, for their studies",
     )
     parser.add_argument(
-        "--commit", metavar="HASH", help="of a body: draw the seeds from this hash; default: HEAD's"
+        "--commit",
+        metavar="HASH",
+        help="of body and hard: draw the seeds from this hash; default: HEAD's",
     )
     parser.add_argument(
-        "--jobs", type=int, default=2, help="of a body and of curves: draws at once; default 2"
+        "--learners",
+        nargs="+",
+        choices=[BODY, POLYNOMIAL],
+        default=[],
+        help="of body and hard: measure these alone; default both",
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=2, help="of body, hard and curves: draws at once; default 2"
     )
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
     return parser
 
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
-    bodies = ["body", *(study.name for study in body_studies())]
-    parser = _parser([study.name for study in studies(True)], bodies)
+    groups = {group: [study.name for study in body_accuracy.studies_of(group)]
+              for group in (BODY, HARD)}  # fmt: skip
+    parser = _parser([study.name for study in studies(True)], groups)
     options = parser.parse_args(arguments)
     options.vision = options.only == [vision_accuracy.STUDY]
     if vision_accuracy.STUDY in options.only and not options.vision:
         parser.error(f"{vision_accuracy.STUDY} runs on its own")
-    options.body = any(name in bodies for name in options.only)
-    if options.body and not all(name in bodies for name in options.only):
-        parser.error("studies of a body run on their own")
+    asked = {next((g for g, names in groups.items() if name == g or name in names), None)
+             for name in options.only}  # fmt: skip
+    if len(asked) > 1:
+        parser.error("studies of a body, and hard ones, run on their own")
+    options.group = asked.pop() if asked else None
     if options.curves and (options.only or options.param):
         parser.error("--curves has no studies and no parameters to choose")
     if options.draws is None and options.vision:
         options.draws = vision_accuracy.QUICK_COUNT if options.quick else vision_accuracy.COUNT
     if options.draws is None:
-        options.draws = (2 if options.quick else 10) if options.body else 5
+        options.draws = (
+            5
+            if options.group is None
+            else body_accuracy.QUICK_DRAWS
+            if options.quick
+            else body_accuracy.DRAWS[options.group]
+        )
     if options.draws < 1 or options.jobs < 1:
         parser.error("--draws and --jobs must be at least 1")
     return options
@@ -163,14 +188,12 @@ def main(arguments: list[str] | None = None) -> int:
         if options.vision:
             vision_accuracy.run(options)
         else:
-            (body_accuracy.run if options.body else run)(options)
+            (body_accuracy.run if options.group else run)(options)
     except (EvaluationError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)
         return 1
-    name, numbers = ("table.md", "accuracy.json")
-    if options.body or options.vision:
-        study = "body" if options.body else vision_accuracy.STUDY
-        name, numbers = f"{study}.md", f"{study}.json"
+    group = vision_accuracy.STUDY if options.vision else options.group
+    name, numbers = (f"{group}.md", f"{group}.json") if group else ("table.md", "accuracy.json")
     print((options.out / name).read_text(), end="")
     print(f"accuracy: {options.out}/{numbers} has every number")
     return 0

@@ -1,7 +1,7 @@
-"""`./run accuracy --only body`: what `experts: body` reaches, beside today's polynomials.
+"""`./run accuracy --only body` or `hard`: what `experts: body` and polynomials reach, side by side.
 
-Each study (reach.body_studies) is drawn with seeds from the commit's hash; both learners learn the
-same files. What remains in the folder: body.json, body.md, body.html.
+Each study (reach.body_studies, reach.hard_studies) is drawn with seeds from the commit's hash; both
+learners learn the same files. What remains in the folder: body.json or hard.json, with .md, .html.
 """
 
 import argparse
@@ -10,8 +10,9 @@ import math
 import subprocess
 import tempfile
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 
@@ -21,10 +22,14 @@ from . import page
 from .body_stream import BODY, POLYNOMIAL, BodyStudy, NeverWorse
 from .body_studies import body_studies
 from .evaluation import EvaluationError, reach_eval
+from .hard_studies import hard_studies
 from .programs import ROOT
 from .progress import Progress
 from .studies import Bar
 
+HARD = "hard"
+TITLES = {BODY: "The learner on a body that it found", HARD: "The learner on hard streams"}
+DRAWS = {BODY: 10, HARD: 3}
 QUICK_DRAWS = 2
 
 
@@ -39,8 +44,10 @@ def seeds_of(hash_: str, draws: int) -> list[int]:
     return [int(seed) for seed in state]
 
 
-def evaluate(study: BodyStudy, draw: int, seed: int, parameters: list[str]) -> dict[str, dict]:
-    """reach-eval's results by learner and number of samples."""
+def evaluate(
+    study: BodyStudy, draw: int, seed: int, parameters: list[str], only: list[str]
+) -> dict:
+    """reach-eval's results by learner (those of `only`, or both) and number of samples."""
     rng = np.random.default_rng([zlib.crc32(study.name.encode()), seed])
     counts = sorted({bar.at for bar in study.bars})
     with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
@@ -50,35 +57,37 @@ def evaluate(study: BodyStudy, draw: int, seed: int, parameters: list[str]) -> d
             learner: reach_eval(study.dimensions, files, counts, folder / "report.json",
                                 config=ROOT / "etc" / config,
                                 parameters=[*study.parameters, *parameters])
-            for learner, config in zip((BODY, POLYNOMIAL), study.files, strict=True)
+            for learner, config in zip(study.columns, study.files, strict=True)
+            if not only or learner in only
         }  # fmt: skip
 
 
-def _number(value: Callable[[dict], float], result: dict) -> float:
+def _number(bar: Bar, results: dict[int, dict] | None) -> float:
     try:
-        return float(value(result))
+        return math.nan if results is None else bar.of(results)
     except (KeyError, TypeError):  # nothing was answered, or it has no such number
         return math.nan
 
 
 def _values(bars: list[Bar], learner: str, draws: list[dict]) -> list[float]:
     """One of each draw: the mean over bars of one name."""
-    return [float(np.mean([_number(bar.value, draw[learner][bar.at]) for bar in bars]))
+    return [float(np.mean([_number(bar, draw.get(learner)) for bar in bars]))
             for draw in draws]  # fmt: skip
 
 
 def _row(study: BodyStudy, bars: list[Bar], draws: list[dict]) -> dict:
     bar = bars[0]
-    ours, theirs = (_values(bars, learner, draws) for learner in (BODY, POLYNOMIAL))
+    ours, theirs = (_values(bars, learner, draws) for learner in study.columns)
     mean, other = float(np.mean(ours)), float(np.mean(theirs))
-    most = other if isinstance(bar, NeverWorse) else bar.most
+    if isinstance(bar, NeverWorse):
+        bar = replace(bar, most=other)
     return {
         "study": study.name, "what": study.what, "metric": bar.name, "unit": bar.unit,
         "mean": mean, "median": float(np.median(ours)), "values": ours,
-        "polynomial": other, "polynomial_values": theirs,
-        "bar": most, "never_worse": isinstance(bar, NeverWorse),
-        "met": None if math.isinf(most) else bool(mean <= most),
-        "draws_met": sum(value <= most for value in ours),
+        "learner": study.columns[0], "beside": other, "beside_values": theirs,
+        "bar": bar.most, "target": bar.target, "never_worse": isinstance(bar, NeverWorse),
+        "met": None if math.isinf(bar.most) else bool(bar.met(mean)),
+        "draws_met": sum(bar.met(value) for value in ours),
     }  # fmt: skip
 
 
@@ -94,7 +103,9 @@ def _short(value: float) -> str:
 def _wanted(row: dict) -> str:
     if row["met"] is None:
         return ""
-    return "as polynomials" if row["never_worse"] else f"{row['bar']:g}"
+    if row["target"] is not None:
+        return f"{row['target']:g} +- {row['bar']:g}" if row["bar"] else f"{row['target']:g}"
+    return "as polynomials" if row["never_worse"] else f"at most {row['bar']:g}"
 
 
 def _verdict(row: dict) -> str:
@@ -104,7 +115,12 @@ def _verdict(row: dict) -> str:
     return f"{words} ({row['draws_met']} of {len(row['values'])})"
 
 
-HEADS = ("study", "", "body", "median, spread", "polynomials", "at most", "")
+WORDS = {BODY: "body", POLYNOMIAL: "polynomials"}
+
+
+def heads(rows: list[dict]) -> list[str]:
+    judged, beside = (BODY, POLYNOMIAL) if rows[0]["learner"] == BODY else (POLYNOMIAL, BODY)
+    return ["study", "", WORDS[judged], "median, spread", WORDS[beside], "wanted", ""]
 
 
 def cells_of(rows: list[dict]) -> list[list[str]]:
@@ -115,12 +131,12 @@ def cells_of(rows: list[dict]) -> list[list[str]]:
         spread = f"{_short(min(row['values']))} .. {_short(max(row['values']))}"
         spread = f"{_short(row['median'])}, {spread}"
         cells.append([first, row["metric"], f"{_short(row['mean'])} {row['unit']}", spread,
-                      _short(row["polynomial"]), _wanted(row), _verdict(row)])  # fmt: skip
+                      _short(row["beside"]), _wanted(row), _verdict(row)])  # fmt: skip
     return cells
 
 
 def table(rows: list[dict]) -> str:
-    lines: Iterable = [HEADS, ["---"] * len(HEADS), *cells_of(rows)]
+    lines: Iterable = [heads(rows), ["---"] * 7, *cells_of(rows)]
     return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
 
 
@@ -128,12 +144,18 @@ def _page(summary: dict) -> str:
     cells = [[escape(cell) for cell in cells] for cells in cells_of(summary["rows"])]
     subtitle = (f"commit {summary['commit'][:12]}, seeds {', '.join(map(str, summary['seeds']))};"
                 " mean, median, least and greatest of the draws; RMSE a coordinate")  # fmt: skip
-    return page.whole("The learner on a body that it found", subtitle, [page.table(HEADS, cells)])
+    return page.whole(
+        TITLES[summary["group"]], subtitle, [page.table(heads(summary["rows"]), cells)]
+    )
+
+
+def studies_of(group: str, data: Path | None = None) -> list[BodyStudy]:
+    return hard_studies() if group == HARD else body_studies(data)
 
 
 def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
-    names = [name for name in options.only if name != BODY]
-    every = body_studies(options.data)
+    names = [name for name in options.only if name != options.group]
+    every = studies_of(options.group, options.data)
     if names:
         chosen = [study for study in every if study.name in names]
         without = [study.name for study in chosen if study.wants_data and options.data is None]
@@ -147,16 +169,17 @@ def chosen_of(options: argparse.Namespace) -> list[BodyStudy]:
 
 def _write(out: Path, summary: dict) -> None:
     out.mkdir(parents=True, exist_ok=True)
-    (out / "body.json").write_text(json.dumps(summary, indent=1) + "\n")
-    (out / "body.md").write_text(table(summary["rows"]))
-    (out / "body.html").write_text(_page(summary))
+    name = summary["group"]
+    (out / f"{name}.json").write_text(json.dumps(summary, indent=1) + "\n")
+    (out / f"{name}.md").write_text(table(summary["rows"]))
+    (out / f"{name}.html").write_text(_page(summary))
 
 
 def run(options: argparse.Namespace) -> list[dict]:
     chosen = chosen_of(options)
     seeds = seeds_of(options.commit or commit(), options.draws)
-    summary = {"commit": options.commit or commit(), "seeds": seeds, "quick": options.quick,
-               "param": options.param, "rows": []}  # fmt: skip
+    summary = {"group": options.group, "commit": options.commit or commit(), "seeds": seeds,
+               "quick": options.quick, "param": options.param, "rows": []}  # fmt: skip
     print(f"accuracy: seeds of commit {summary['commit'][:12]}: {', '.join(map(str, seeds))}")
     progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
     for study in chosen:
@@ -164,7 +187,8 @@ def run(options: argparse.Namespace) -> list[dict]:
         progress.update(study.name, 0.0, f"{draws} draws")
         with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
             found = list(pool.map(lambda draw, s=study: evaluate(s, draw, seeds[draw],
-                                                                options.param),
+                                                                options.param,
+                                                                options.learners),
                                   range(draws)))  # fmt: skip
         rows = rows_of(study, found)
         summary["rows"] += rows

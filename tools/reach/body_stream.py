@@ -17,7 +17,10 @@ BODY, POLYNOMIAL = "body", "polynomial"
 
 @dataclass
 class BodyStudy(Study):
-    files: tuple[str, str] = ("learner-icub-body.yaml", "learner-icub.yaml")  # body, polynomial
+    """Two learners on the same files; the bars are those of the first."""
+
+    columns: tuple[str, str] = (BODY, POLYNOMIAL)
+    files: tuple[str, str] = ("learner-icub-body.yaml", "learner-icub.yaml")
     quick: bool = True  # cheap enough for --quick
     most_draws: int | None = None
     wants_data: bool = False

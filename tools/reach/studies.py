@@ -28,6 +28,10 @@ class Bar:
     unit: str = "mm"
     target: float | None = None
 
+    def of(self, results: dict[int, dict]) -> float:
+        """The number, from reach-eval's results by number of samples."""
+        return float(self.value(results[self.at]))
+
     def met(self, mean: float) -> bool:
         return mean <= self.most if self.target is None else abs(mean - self.target) <= self.most
 

@@ -28,6 +28,7 @@ static struct learner_config cubic_config(void)
     struct learner_config config = linear_config();
 
     config.features = LEARNER_POLYNOMIAL;
+    config.births = LEARNER_BIRTHS_PUBLISHED; /* by evidence a full model makes room */
     config.capacity = 4;
     config.clustering = LEARNER_CLUSTER_LEADER;
     config.leader_level = 0.9999;

@@ -140,6 +140,7 @@ START_TEST(jacobian_is_the_derivative)
             for (int floored = 0; floored < 2; floored++) {
                 struct learner_config config =
                     robot_like((enum learner_features)features, (enum learner_clustering)rule);
+                config.births = LEARNER_BIRTHS_PUBLISHED;
                 config.degree = 2; /* leaves a misfit, so that several experts share a branch */
                 config.scale[1] = 0.8;
                 config.sigma0[0] = config.sigma0[1] = 0.05;

@@ -96,6 +96,7 @@ START_TEST(memory_bounds_the_experts)
 
     bed_seed();
     config.features = LEARNER_POLYNOMIAL;
+    config.births = LEARNER_BIRTHS_PUBLISHED; /* by evidence a full model makes room */
     config.degree = 4;
     config.clustering = LEARNER_CLUSTER_LEADER;
     size_t whole = learner_memory(&config);
@@ -227,8 +228,8 @@ START_TEST(a_state_begins_with_the_same_bytes_in_every_build)
     static const struct {
         enum learner_kind kind;
         uint64_t number, parameters, checksum;
-    } known[] = {{LEARNER_IMLE, 0, 0x041977cfbfdc40d5, 0xceb431a36b5ce246},
-                 {LEARNER_LWPR, 2, 0x19ab099d5db06313, 0x2ce2f815a12d8db8}};
+    } known[] = {{LEARNER_IMLE, 0, 0x041977cfbfdc40d5, 0xbfcf58a4b15f7fa1},
+                 {LEARNER_LWPR, 2, 0x19ab099d5db06313, 0xfd739c2349f0ecb3}};
 
     for (int k = 0; k < 2; k++) {
         struct learner_config config = learner_config_default(2, 2);

@@ -49,8 +49,8 @@ static double patience(void)
 
 START_TEST(a_full_model_starts_in_time)
 {
-    const char *const overrides[] = {"learner.capacity=1024"};
-    const struct config config = fixture_config(overrides, 1);
+    const char *const overrides[] = {"learner.capacity=1024", "learner.births=published"};
+    const struct config config = fixture_config(overrides, 2);
     struct random_state random = fixture_random("model_start");
     char directory[] = "/tmp/reach-start-XXXXXX";
     struct model_store_settings settings;

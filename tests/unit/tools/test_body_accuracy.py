@@ -78,7 +78,7 @@ class Streams(unittest.TestCase):
             rows = sum(len(path.read_text().splitlines()) for path in files.train)
             for bar in study.bars:
                 self.assertLessEqual(bar.at, rows, name)
-                self.assertFalse(math.isnan(body_accuracy._number(bar.value, result)), name)
+                self.assertFalse(math.isnan(body_accuracy._number(bar, {bar.at: result})), name)
 
 
 def study_of(*bars: Bar) -> BodyStudy:
@@ -93,7 +93,7 @@ class Verdicts(unittest.TestCase):
     def test_bars_of_one_name_are_one_row(self):
         bars = [Bar("x", 1, lambda r: r["x"], 2.0), Bar("x", 1, lambda r: 3 * r["x"], 2.0)]
         (row,) = body_accuracy.rows_of(study_of(*bars), [draw_of(0.5, 5.0), draw_of(1.5, 5.0)])
-        self.assertEqual((row["values"], row["mean"], row["polynomial"]), ([1.0, 3.0], 2.0, 10.0))
+        self.assertEqual((row["values"], row["mean"], row["beside"]), ([1.0, 3.0], 2.0, 10.0))
         self.assertTrue(row["met"])
         self.assertEqual(row["draws_met"], 1)
 

@@ -170,14 +170,18 @@ class Warned(Fixture):
         )
 
     def test_dropped_samples_and_too_many_experts(self):
-        """300 random postures at the shipped p0: 16 experts, and most rows are dropped."""
+        """300 random postures, births as published: 16 experts, and most rows are dropped."""
         rng = np.random.default_rng(1)
         z = rng.uniform(-1, 1, (300, 7))
         rows = np.hstack([z, np.sin(2 * z[:, :3]) + np.cos(2 * z[:, 3:6])])
         start = ["--learner", "imle", "--inputs", 7, "--outputs", 3, "--json", self.json,
                  "--train", self.write("a.csv", rows),
                  "--config", ETC / "learner-icub.yaml"]  # fmt: skip
-        warnings = " ".join(self.warnings_of(*start, "--param", "p0=0.1", "psi0=1e-4"))
+        warnings = " ".join(
+            self.warnings_of(
+                *start, "--param", "p0=0.1", "psi0=1e-4", "births=published", "n_outliers=3"
+            )
+        )
         self.assertRegex(warnings, r"of 300 samples .* were dropped: all 16 experts are in use")
         self.assertRegex(warnings, r"of 300 samples .* were dropped as outliers")
         self.assertRegex(warnings, r"16 experts from \d+ samples: more than there are branches")
