@@ -20,8 +20,6 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
 
 static bool births_by_evidence(const struct learner_config *config)
 {
-    if (config->births == LEARNER_BIRTHS_AUTO)
-        return config->features != LEARNER_LINEAR;
     return config->births == LEARNER_BIRTHS_EVIDENCE;
 }
 

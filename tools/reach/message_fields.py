@@ -67,9 +67,10 @@ class Field:
 
     @property
     def words(self) -> dict[int, str]:
-        """The numbers that have names."""
+        """The numbers that have names; none where names are bits, of which there may be several."""
         pairs = re.findall(r"(\w+) = (-?\d+)", ", ".join(self.constants))
-        return {int(number): name for name, number in pairs}
+        named = {int(number): name for name, number in pairs}
+        return named if 0 in named or any(n & (n - 1) for n in named) else {}
 
 
 @dataclass
