@@ -75,7 +75,7 @@ struct config {
     bool model_automatic;
     int model_snapshot, model_keep, model_saved_most;
     double model_snapshot_budget; /* MB a day */
-    double model_sync; /* s */
+    double model_sync;            /* s */
 
     /* What follows from the rows above (derived.c). */
     struct option_list babble_min, babble_max; /* rad */

@@ -30,7 +30,7 @@ private:
     const Rig &rig_;
     double ball_mass_;
     int64_t refused_ = 0; /* the newest state that was refused at the last look */
-    int fault_ = 0;       /* that of the last look */
+    int8_t fault_ = 0;    /* that of the last look */
     int64_t said_ = 0;
     bool refuses_ = false;
 };

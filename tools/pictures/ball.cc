@@ -150,7 +150,8 @@ static void draw_pixel(const drawn_ball &ball, const placed_ball &at, const came
 
     for (int i = 0; i < supersampling * supersampling; i++) {
         const double x = (i % supersampling + 0.5) / supersampling - 0.5;
-        const double y = (static_cast<double>(i / supersampling) + 0.5) / supersampling - 0.5;
+        const int line = i / supersampling;
+        const double y = (line + 0.5) / supersampling - 0.5;
         direction normal;
         if (!hit(at, camera_direction(eye, {column + x, row + y}), &normal))
             continue;

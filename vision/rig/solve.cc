@@ -90,6 +90,7 @@ static double median_height(const std::vector<sighting> &sightings)
 {
     std::vector<double> all;
 
+    all.reserve(sightings.size());
     for (const sighting &one : sightings)
         all.push_back(std::fabs(one.height));
     const auto middle = all.begin() + static_cast<long>(all.size() / 2);
