@@ -83,20 +83,7 @@ def run(options: argparse.Namespace) -> list[dict]:
     return rows
 
 
-def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.ArgumentParser:
-    parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--draws",
-        type=int,
-        help="draws of every study; default 5, of a body 10, of hard 3, or 2 with --quick; pictures"
-        f" of each kind; default {vision_accuracy.COUNT}, or {vision_accuracy.QUICK_COUNT} with"
-        " --quick",
-    )
-    parser.add_argument(
-        "--quick",
-        action="store_true",
-        help="use a fifth of the samples; of a body run the cheap studies",
-    )
+def _add_only(parser: Parser, names: list[str], groups: dict[str, list[str]]) -> None:
     parser.add_argument(
         "--only",
         nargs="+",
@@ -112,18 +99,10 @@ def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.Argument
         f" polynomials: all ({HARD}), or of {', '.join(groups[HARD])}; or hard pictures for"
         f" reach-vision: {vision_accuracy.STUDY}",
     )
-    parser.add_argument(
-        "--curves",
-        action="store_true",
-        help="draw errors of four learners against samples instead: curves.svg",
-    )
-    parser.add_argument(
-        "--param",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="set a parameter of the learner; may be repeated",
-    )
+
+
+def _add_of_groups(parser: Parser) -> None:
+    """What studies of a body and hard ones take besides."""
     parser.add_argument(
         "--data",
         type=Path,
@@ -142,6 +121,36 @@ def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.Argument
         default=[],
         help="of body and hard: measure these alone; default both",
     )
+
+
+def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.ArgumentParser:
+    parser = Parser(prog="./run accuracy", description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--draws",
+        type=int,
+        help="draws of every study; default 5, of a body 10, of hard 3, or 2 with --quick; pictures"
+        f" of each kind; default {vision_accuracy.COUNT}, or {vision_accuracy.QUICK_COUNT} with"
+        " --quick",
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="use a fifth of the samples; of a body run the cheap studies",
+    )
+    _add_only(parser, names, groups)
+    parser.add_argument(
+        "--curves",
+        action="store_true",
+        help="draw errors of four learners against samples instead: curves.svg",
+    )
+    parser.add_argument(
+        "--param",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a parameter of the learner; may be repeated",
+    )
+    _add_of_groups(parser)
     parser.add_argument(
         "--jobs", type=int, default=2, help="of body, hard and curves: draws at once; default 2"
     )

@@ -81,6 +81,21 @@ void bed_expect_same_state(const struct learner *one, const struct learner *othe
     free(second);
 }
 
+double bed_square_off(struct learner *learner, const double *z, const double *x, int n_outputs)
+{
+    static struct learner_prediction prediction;
+    double least = INFINITY;
+
+    learner_predict(learner, z, &prediction);
+    for (int k = 0; k < prediction.n_solutions; k++) {
+        double square = 0.0;
+        for (int i = 0; i < n_outputs; i++)
+            square += pow(prediction.solution[k].value[i] - x[i], 2.0);
+        least = fmin(least, square);
+    }
+    return least;
+}
+
 void bed_clean(void)
 {
     while (n_arenas > 0)

@@ -26,6 +26,9 @@ unsigned char *bed_saved(const struct learner *learner, size_t *size);
 /* The test fails unless both states are the same bytes. */
 void bed_expect_same_state(const struct learner *one, const struct learner *other);
 
+/* The squared distance from x[n_outputs] of the nearest solution at z; INFINITY without any. */
+double bed_square_off(struct learner *learner, const double *z, const double *x, int n_outputs);
+
 /* Frees what bed_create() made since the last time. */
 void bed_clean(void);
 

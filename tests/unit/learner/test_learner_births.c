@@ -69,7 +69,6 @@ static int experts(const struct learner *learner)
 /* How far the nearest solution is from the branch, root mean square, always at the same inputs. */
 static double error_of(struct learner *learner, double branch)
 {
-    static struct learner_prediction prediction;
     static double queries[QUERIES][INPUTS];
     static bool drawn;
     double sum = 0.0;
@@ -78,15 +77,9 @@ static double error_of(struct learner *learner, double branch)
         draw(queries[k]);
     drawn = true;
     for (int k = 0; k < QUERIES; k++) {
-        const double *z = queries[k];
         double x[OUTPUTS];
-        double least = INFINITY;
-        value_at(z, branch, x);
-        learner_predict(learner, z, &prediction);
-        for (int s = 0; s < prediction.n_solutions; s++)
-            least = fmin(least, hypot(prediction.solution[s].value[0] - x[0],
-                                      prediction.solution[s].value[1] - x[1]));
-        sum += least * least;
+        value_at(queries[k], branch, x);
+        sum += bed_square_off(learner, queries[k], x, OUTPUTS);
     }
     return sqrt(sum / QUERIES);
 }

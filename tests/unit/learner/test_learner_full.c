@@ -106,7 +106,6 @@ static struct cost live(struct learner *learner, int branch)
 /* RMSE of the solution that is closest to the branch, always at the same queries. */
 static double error_of(struct learner *learner, int branch)
 {
-    static struct learner_prediction prediction;
     static double queries[QUERIES][INPUTS];
     static bool drawn;
     double sum = 0.0;
@@ -115,18 +114,9 @@ static double error_of(struct learner *learner, int branch)
         draw(queries[k]);
     drawn = true;
     for (int k = 0; k < QUERIES; k++) {
-        const double *z = queries[k];
         double x[OUTPUTS];
-        double least = INFINITY;
-        value_on_branch(z, branch, x);
-        learner_predict(learner, z, &prediction);
-        for (int s = 0; s < prediction.n_solutions; s++) {
-            double square = 0.0;
-            for (int i = 0; i < OUTPUTS; i++)
-                square += pow(prediction.solution[s].value[i] - x[i], 2.0);
-            least = fmin(least, square);
-        }
-        sum += least;
+        value_on_branch(queries[k], branch, x);
+        sum += bed_square_off(learner, queries[k], x, OUTPUTS);
     }
     return sqrt(sum / QUERIES);
 }

@@ -82,9 +82,22 @@ static void show_change(const reach_status_t *status, FILE *out)
                 by[1], by[2], (long long)status->body_changes);
 }
 
+/* What was refused, and what is wrong with the samples. */
+static void show_wrong(const reach_status_t *status, FILE *out)
+{
+    char text[512];
+
+    refusals_text(status, NULL, text, sizeof text);
+    if (text[0])
+        fprintf(out, "refused    %s\n", text);
+    for (int kind = 0; kind < TROUBLES; kind++)
+        if (trouble_text(status, kind, text, sizeof text))
+            fprintf(out, "trouble    %s\n", text);
+}
+
 void show_text(const reach_status_t *status, FILE *out)
 {
-    char body[128], fault[128], refused[512];
+    char body[128], fault[128];
 
     show_body(status, body, sizeof body);
     fprintf(out, "state      %s, behaviour %s, phase %s\n", show_state(status),
@@ -112,12 +125,7 @@ void show_text(const reach_status_t *status, FILE *out)
             "trouble    %lld overruns, %lld slips, %lld bad inputs, %lld gated, %lld dropped\n",
             (long long)status->overruns, (long long)status->slips, (long long)status->bad_inputs,
             (long long)status->gated, (long long)status->dropped_samples);
-    refusals_text(status, NULL, refused, sizeof refused);
-    if (refused[0])
-        fprintf(out, "refused    %s\n", refused);
-    for (int kind = 0; kind < TROUBLES; kind++)
-        if (trouble_text(status, kind, refused, sizeof refused))
-            fprintf(out, "trouble    %s\n", refused);
+    show_wrong(status, out);
     fprintf(out, "age        robot state %.3f s, request %lld %s\n", status->staleness,
             (long long)status->request_seq, result_word(status));
 }
