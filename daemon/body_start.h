@@ -3,7 +3,7 @@
 #define REACH_DAEMON_BODY_START_H
 
 #include "daemon/config/config.h"
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 /* *start is `body`, filled, or NULL where the option is empty. Returns 0, or -1 with one line in
  * `error` that names the file. */

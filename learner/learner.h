@@ -232,7 +232,8 @@ struct learner_inverse {
 int learner_predict_inverse(struct learner *learner, const double *x,
                             struct learner_inverse *inverse);
 
-/* A robot's body: a chain of screws that somebody found from samples (learner/body/body.h). */
+/* A robot's body: a chain of screws that somebody found from samples (learner/body/chain/body.h).
+ */
 struct body;
 
 /* From now on experts stand on this body (LEARNER_BODY alone): each is learned anew from the

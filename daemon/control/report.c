@@ -1,6 +1,6 @@
 #include "daemon/control/tick_private.h"
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #include <math.h>
 #include <string.h>

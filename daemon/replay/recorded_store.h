@@ -5,7 +5,7 @@
 
 #include "common/base/arena.h"
 #include "daemon/control/model_port.h"
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 #include "learner/store/model_file.h"
 
 #include <stdbool.h>

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "learner/base/hash.h"
-#include "learner/body/follow.h"
-#include "learner/body/order.h"
+#include "learner/body/chain/order.h"
+#include "learner/body/contexts/follow.h"
 
 struct learner_config body_meanwhile_config(const struct learner_config *config)
 {

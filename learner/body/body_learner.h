@@ -3,8 +3,8 @@
 #ifndef REACH_LEARNER_BODY_BODY_LEARNER_H
 #define REACH_LEARNER_BODY_BODY_LEARNER_H
 
-#include "learner/body/contest.h"
-#include "learner/body/contexts.h"
+#include "learner/body/change/contest.h"
+#include "learner/body/contexts/contexts.h"
 #include "learner/imle/imle.h"
 #include "learner/kind.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "learner/body/body_learner.h"
-#include "learner/body/order.h"
-#include "learner/body/vec3.h"
+#include "learner/body/chain/order.h"
+#include "learner/body/chain/vec3.h"
 
 static const double damping = 1e-3; /* of the squared output that a joint's range makes */
 static const double longest = 0.3;  /* step, of a joint's range */

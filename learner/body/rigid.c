@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "learner/body/body_learner.h"
-#include "learner/body/search.h"
+#include "learner/body/search/search.h"
 
 static struct context *most_in_use(struct contexts *contexts)
 {

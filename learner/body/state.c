@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "learner/body/body_learner.h"
-#include "learner/body/state_private.h"
+#include "learner/body/contexts/state_private.h"
 
 /* One number a field, so that no padding is saved. */
 enum { HEAD = 15 + CHANGE_VIEW };

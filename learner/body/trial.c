@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "learner/body/body_learner.h"
-#include "learner/body/order.h"
-#include "learner/body/search.h"
+#include "learner/body/chain/order.h"
+#include "learner/body/search/search.h"
 #include "learner/kind.h"
 
 /* Misfits that large, in units of the noise told, may be those of no chain. */

@@ -2,7 +2,7 @@
 #ifndef REACH_LEARNER_BUS_BODY_MESSAGE_H
 #define REACH_LEARNER_BUS_BODY_MESSAGE_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #include <reach_body_t.h>
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 #ifndef REACH_LEARNER_FINDER_FINDER_H
 #define REACH_LEARNER_FINDER_FINDER_H
 
-#include "learner/body/search.h"
+#include "learner/body/search/search.h"
 #include "learner/learner.h"
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 #include "learner/finder/problem.h"
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 
 #include <ceres/ceres.h>
 #include <cmath>

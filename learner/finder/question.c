@@ -1,7 +1,7 @@
 #include "learner/finder/question.h"
 
 #include "common/base/big_endian.h"
-#include "learner/body/contexts.h"
+#include "learner/body/contexts/contexts.h"
 
 #include <math.h>
 #include <stdio.h>

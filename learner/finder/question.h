@@ -2,7 +2,7 @@
 #ifndef REACH_LEARNER_FINDER_QUESTION_H
 #define REACH_LEARNER_FINDER_QUESTION_H
 
-#include "learner/body/search.h"
+#include "learner/body/search/search.h"
 
 #include <reach_body_request_t.h>
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 /* Looks for a body while a learner learns, and gives it what is found, in one process. When it
- * looks: learner/body/schedule.h. */
+ * looks: learner/body/search/schedule.h. */
 #ifndef REACH_LEARNER_FINDER_SEEKER_H
 #define REACH_LEARNER_FINDER_SEEKER_H
 
-#include "learner/body/schedule.h"
+#include "learner/body/search/schedule.h"
 #include "learner/finder/finder.h"
 
 #ifdef __cplusplus

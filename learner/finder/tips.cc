@@ -1,6 +1,6 @@
 #include "learner/finder/tips.h"
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 #include "learner/finder/judge.h"
 
 #include <algorithm>

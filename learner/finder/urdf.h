@@ -2,7 +2,7 @@
 #ifndef REACH_LEARNER_FINDER_URDF_H
 #define REACH_LEARNER_FINDER_URDF_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #ifdef __cplusplus
 extern "C" {

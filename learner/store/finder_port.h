@@ -3,7 +3,7 @@
 #ifndef REACH_LEARNER_STORE_FINDER_PORT_H
 #define REACH_LEARNER_STORE_FINDER_PORT_H
 
-#include "learner/body/search.h"
+#include "learner/body/search/search.h"
 
 #include <stdbool.h>
 #include <stdint.h>

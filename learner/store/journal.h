@@ -8,7 +8,7 @@
 #ifndef REACH_LEARNER_STORE_JOURNAL_H
 #define REACH_LEARNER_STORE_JOURNAL_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 #include "learner/learner.h"
 #include "learner/store/files.h"
 

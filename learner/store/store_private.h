@@ -5,7 +5,7 @@
 #define REACH_LEARNER_STORE_STORE_PRIVATE_H
 
 #include "common/base/mailbox.h"
-#include "learner/body/schedule.h"
+#include "learner/body/search/schedule.h"
 #include "learner/store/generations.h"
 #include "learner/store/journal.h"
 #include "learner/store/model_file.h"

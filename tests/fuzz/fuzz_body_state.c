@@ -5,7 +5,7 @@
 #include "common/base/arena.h"
 #include "harness.h"
 #include "learner/base/hash.h"
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #include <string.h>
 

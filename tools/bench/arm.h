@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #ifdef __cplusplus
 extern "C" {

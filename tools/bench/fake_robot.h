@@ -9,7 +9,7 @@
 #include "daemon/config/sizes.h"
 #include "daemon/control/senses/observation.h"
 #include "daemon/control/tick.h"
-#include "learner/body/chain.h"
+#include "learner/body/chain/chain.h"
 
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>

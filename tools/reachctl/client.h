@@ -2,7 +2,7 @@
 #ifndef REACHCTL_CLIENT_H
 #define REACHCTL_CLIENT_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 #include "tools/reachctl/command.h"
 
 #include <lcm/lcm.h>

@@ -1,5 +1,5 @@
 /* A regression whose rows share their coefficients, by the formulas of a textbook and all samples
- * at once: what learner/body/tied.c carries from sample to sample. */
+ * at once: what learner/body/tool/tied.c carries from sample to sample. */
 #ifndef REACH_TEST_BODY_BATCH_POSTERIOR_H
 #define REACH_TEST_BODY_BATCH_POSTERIOR_H
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 #include "tests/unit/learner/bed.h"
 
 void random_unit(double v[3])

@@ -2,7 +2,7 @@
 #ifndef REACH_TEST_BODY_MADE_UP_ARM_H
 #define REACH_TEST_BODY_MADE_UP_ARM_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 #include "learner/learner.h"
 
 #ifdef __cplusplus

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "learner/body/chain.h"
-#include "learner/body/vec3.h"
+#include "learner/body/chain/chain.h"
+#include "learner/body/chain/vec3.h"
 /* After the C++ headers: Check takes the word `fail`. */
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"

@@ -2,8 +2,8 @@
  * told, followed, and the tools that were not in use keep their tips. */
 #include <math.h>
 
-#include "learner/body/change.h"
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
+#include "learner/body/change/change.h"
 #include "tests/unit/learner/bed.h"
 #include "tests/unit/suite.h"
 #include "tools_bed.h"

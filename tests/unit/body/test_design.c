@@ -1,11 +1,11 @@
 /* What an expert is linear in: the slope of its product with theta against differences, and that
  * the sizes are nested. */
-#include "learner/body/design.h"
+#include "learner/body/tool/design.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"
 #include "tests/unit/suite.h"

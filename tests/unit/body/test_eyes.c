@@ -1,6 +1,6 @@
 /* Eyes that fixate: derivatives against differences, looking as the inverse of seeing, and what
  * cannot be seen. */
-#include "learner/body/eyes.h"
+#include "learner/body/chain/eyes.h"
 
 #include <math.h>
 #include <string.h>

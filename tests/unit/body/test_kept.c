@@ -1,5 +1,5 @@
 /* Samples that are kept: spread, as many as there is room for, of today, and the same each time. */
-#include "learner/body/kept.h"
+#include "learner/body/tool/kept.h"
 
 #include <math.h>
 #include <string.h>

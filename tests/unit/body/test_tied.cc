@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "batch_posterior.h"
-#include "learner/body/tied.h"
+#include "learner/body/tool/tied.h"
 /* After the C++ headers: Check takes the word `fail`. */
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"

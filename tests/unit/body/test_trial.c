@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "learner/body/contest.h"
+#include "learner/body/change/contest.h"
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"
 #include "tests/unit/suite.h"

@@ -1,7 +1,7 @@
 /* A tool that gives way to gravity, and the exact Jacobians of rigid ones and of such. */
 #include <math.h>
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 #include "tests/unit/learner/bed.h"
 #include "tests/unit/suite.h"
 #include "tools_bed.h"

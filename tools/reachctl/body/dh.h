@@ -7,7 +7,7 @@
 #ifndef REACH_TOOLS_REACHCTL_BODY_DH_H
 #define REACH_TOOLS_REACHCTL_BODY_DH_H
 
-#include "learner/body/chain.h"
+#include "learner/body/chain/chain.h"
 
 struct dh_row {
     double theta, d, a, alpha; /* rad, and the chain's unit of length */

@@ -1,6 +1,6 @@
 #include "tools/reachctl/body/show.h"
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 #include "tools/reachctl/body/dh.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef REACH_TOOLS_REACHCTL_BODY_SHOW_H
 #define REACH_TOOLS_REACHCTL_BODY_SHOW_H
 
-#include "learner/body/body.h"
+#include "learner/body/chain/body.h"
 
 #include <stdio.h>
 
