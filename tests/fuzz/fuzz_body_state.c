@@ -15,7 +15,8 @@ static struct arena *arena;
 static struct learner *learner;
 static uint8_t *state;   /* as it was saved */
 static uint8_t *changed; /* the same with changes */
-static size_t size;
+static size_t size;      /* of both */
+static size_t most; /* that a state may have: one whose body is doubtful holds polynomials, too */
 
 static struct body small_body(void)
 {
@@ -57,8 +58,9 @@ static void begin(void)
         learner_update(learner, z, x);
     }
     size = learner_save_size(learner);
+    most = learner_memory(&config);
     state = malloc(size);
-    changed = malloc(size);
+    changed = malloc(most);
     HARNESS_REQUIRE(state && changed && learner_save(learner, state, size) == size);
 }
 
@@ -89,8 +91,8 @@ static void use(void)
     learner_predict_inverse(learner, x, &inverse);
     for (int k = 0; k < 5; k++)
         learner_update(learner, z, x);
-    HARNESS_REQUIRE(learner_save_size(learner) == size);
-    HARNESS_REQUIRE(learner_save(learner, changed, size) == size);
+    HARNESS_REQUIRE(learner_save_size(learner) >= size && learner_save_size(learner) <= most);
+    HARNESS_REQUIRE(learner_save(learner, changed, most) == learner_save_size(learner));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t length)
