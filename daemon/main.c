@@ -6,11 +6,11 @@
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
 #include "daemon/control/tick.h"
-#include "daemon/finder_of_bus.h"
 #include "daemon/housekeeping/housekeeping.h"
 #include "daemon/model_of_store.h"
 #include "daemon/replay/player.h"
 #include "daemon/threads.h"
+#include "learner/bus/finder_of_bus.h"
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
@@ -73,7 +73,7 @@ static int build_tick(struct reachd *reachd, char *error, size_t error_size)
     struct model_store_settings settings;
     const struct body *start;
 
-    finder_of_bus_init(&reachd->finder);
+    finder_of_bus_init(&reachd->finder, FINDER_ASKED_BY_DAEMON);
     if (body_start_read(&reachd->config, &reachd->body_start, &start, error, error_size))
         return -1;
     settings = model_of_store_settings(&reachd->config, &reachd->finder.port, start);
@@ -101,7 +101,8 @@ static int build_threads(struct reachd *reachd, char *error, size_t error_size)
         daemon_bus_create(reachd->lcm, config->space.kind, reachd->arena, error, error_size);
     if (!threads->bus)
         return -1;
-    reachd->finder.bus = threads->bus;
+    reachd->finder.lcm = reachd->lcm;
+    reachd->finder.answers = daemon_bus_bodies(threads->bus);
     threads->watchdog = watchdog_create(config, threads->bus, lockstep ? NULL : url, reachd->arena,
                                         error, error_size);
     if (!threads->watchdog)

@@ -43,6 +43,8 @@ static const struct message_type types[] = {
     TYPE(reach, body_request_t, "REACH_BODY_REQUEST"),
     TYPE(reach, body_t, "REACH_BODY"),
     TYPE(reach, body_t, "REACH_BODY_IN_USE"),
+    TYPE(reach, body_request_t, "LEARNER_BODY_REQUEST"),
+    TYPE(reach, body_t, "LEARNER_BODY"),
     TYPE(reach, hello_t, "REACH_HELLO"),
     TYPE(reach, sim_request_t, "SIM_REQUEST"),
     TYPE(reach, sim_truth_t, "SIM_TRUTH"),

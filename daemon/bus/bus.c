@@ -7,6 +7,8 @@
 #include "daemon/bus/incoming.h"
 #include "daemon/bus/outgoing.h"
 #include "daemon/config/text.h"
+#include "learner/bus/body_answer.h"
+#include "learner/bus/finder_channels.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -113,7 +115,7 @@ static void on_body(const lcm_recv_buf_t *message, const char *channel, void *us
     struct received_body received;
 
     (void)channel;
-    if (!incoming_body(message->data, message->data_size, &received))
+    if (!body_answer_read(message->data, message->data_size, &received))
         refuse(bus, REACH_STATUS_T_CHANNEL_BODY);
     else
         mailbox_put(bus->bodies, &received); /* one that finds no room comes again */
@@ -147,7 +149,7 @@ struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct a
         !lcm_subscribe(lcm, "ROBOT_STATE", on_state, bus) ||
         !lcm_subscribe(lcm, incoming_sense(space), on_observation, bus) ||
         !lcm_subscribe(lcm, "REACH_REQUEST", on_request, bus) ||
-        !lcm_subscribe(lcm, "REACH_BODY", on_body, bus)) {
+        !lcm_subscribe(lcm, finder_channels[FINDER_ASKED_BY_DAEMON].answer, on_body, bus)) {
         snprintf(error, error_size, "cannot subscribe to the bus");
         return NULL;
     }
@@ -224,16 +226,6 @@ struct mailbox *daemon_bus_reports(struct daemon_bus *bus)
 struct mailbox *daemon_bus_bodies(struct daemon_bus *bus)
 {
     return bus->bodies;
-}
-
-void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *request)
-{
-    reach_body_request_t_publish(bus->lcm, "REACH_BODY_REQUEST", request);
-}
-
-void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message)
-{
-    reach_body_t_publish(bus->lcm, "REACH_BODY_IN_USE", message);
 }
 
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds)

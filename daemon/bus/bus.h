@@ -11,8 +11,6 @@
 #include "daemon/control/senses/refusals.h"
 
 #include <lcm/lcm.h>
-#include <reach_body_request_t.h>
-#include <reach_body_t.h>
 #include <reach_request_t.h>
 #include <reach_robot_command_t.h>
 #include <reach_robot_state_t.h>
@@ -57,10 +55,6 @@ struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct recei
 
 /* For the thread that keeps the model: answers of reach-finder's, struct received_body. */
 struct mailbox *daemon_bus_bodies(struct daemon_bus *bus);
-/* The same thread asks, */
-void daemon_bus_ask_body(struct daemon_bus *bus, const reach_body_request_t *request);
-/* and tells of the body in use. */
-void daemon_bus_tell_body(struct daemon_bus *bus, const reach_body_t *message);
 
 /* Lockstep: waits until a message has come, at most `milliseconds`. Returns false when none has. */
 bool daemon_bus_wait(struct daemon_bus *bus, int milliseconds);

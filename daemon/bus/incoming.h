@@ -5,7 +5,6 @@
 
 #include "daemon/config/space.h"
 #include "daemon/control/senses/observation.h"
-#include "learner/store/finder_port.h"
 
 #include <reach_request_t.h>
 #include <reach_robot_state_t.h>
@@ -15,14 +14,6 @@
 
 bool incoming_state(const void *data, size_t size, reach_robot_state_t *state);
 bool incoming_request(const void *data, size_t size, reach_request_t *request);
-
-/* An answer of reach-finder's, and the request that it names. What a body in it holds is checked;
- * whether it is the learner's, the learner says. */
-struct received_body {
-    int64_t request_utime;
-    struct body_answer answer;
-};
-bool incoming_body(const void *data, size_t size, struct received_body *received);
 
 /* Of the sense that this task space has, with its checksum. */
 bool incoming_observation(enum space_kind space, const void *data, size_t size,

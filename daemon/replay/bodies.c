@@ -7,7 +7,7 @@ void replay_take_body(struct replay *replay, const void *data, size_t size)
 {
     struct received_body *body = &replay->bodies[replay->n_bodies % REPLAY_BODIES];
 
-    if (incoming_body(data, size, body) && body->answer.kind == BODY_ANSWER_REPORT &&
+    if (body_answer_read(data, size, body) && body->answer.kind == BODY_ANSWER_REPORT &&
         body->answer.report.outcome == FINDER_FOUND)
         replay->n_bodies++;
 }

@@ -10,6 +10,7 @@
 #include "daemon/replay/recorded_store.h"
 #include "daemon/replay/recording.h"
 #include "daemon/replay/replay.h"
+#include "learner/bus/body_answer.h"
 
 enum { REPLAY_CONFIGS = 64, REPLAY_BODIES = 8, REPLAY_REASON = 400, REPLAY_NEWEST = 16 };
 

@@ -3,6 +3,7 @@
 #include "common/bus/open.h"
 #include "common/bus/receiver.h"
 #include "common/program/log.h"
+#include "learner/bus/finder_channels.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -11,20 +12,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct finder_bus {
-    lcm_t *lcm;
-    void (*arrived)(void);
-    struct bus_receiver receiver;
-    _Atomic int64_t refused;
+/* One who asks, on channels of its own. */
+struct asker {
+    struct finder_bus *bus;
+    const struct finder_channels *channels;
 
-    pthread_mutex_t mutex; /* of all that follows */
+    /* Under the bus's mutex: */
     struct question *waiting;
     struct question_name searched; /* what was taken last */
     bool answered;
     reach_body_t answer; /* of that */
 };
 
-static void send_short(struct finder_bus *bus, const struct question_name *name, int8_t outcome,
+struct finder_bus {
+    lcm_t *lcm;
+    void (*arrived)(void);
+    struct bus_receiver receiver;
+    _Atomic int64_t refused;
+    pthread_mutex_t mutex;
+    struct asker asker[FINDER_ASKERS];
+    int taken; /* whose question was taken last; the searching thread's, as that and its answer */
+};
+
+static void send(const struct asker *asker, const reach_body_t *message)
+{
+    reach_body_t_publish(asker->bus->lcm, asker->channels->answer, message);
+}
+
+static void send_short(const struct asker *asker, const struct question_name *name, int8_t outcome,
                        const char *why)
 {
     reach_body_t message = {.utime = bus_utime(),
@@ -35,7 +50,7 @@ static void send_short(struct finder_bus *bus, const struct question_name *name,
                             .doubt = INFINITY};
 
     snprintf((char *)message.why, sizeof message.why, "%s", why);
-    reach_body_t_publish(bus->lcm, "REACH_BODY", &message);
+    send(asker, &message);
 }
 
 static bool same(const struct question_name *a, const struct question_name *b)
@@ -43,28 +58,28 @@ static bool same(const struct question_name *a, const struct question_name *b)
     return a->utime == b->utime && a->seq == b->seq;
 }
 
-static void refuse(struct finder_bus *bus, const struct question_name *name, const char *why)
+static void refuse(const struct asker *asker, const struct question_name *name, const char *why)
 {
-    atomic_fetch_add_explicit(&bus->refused, 1, memory_order_relaxed);
-    log_warning("a request was refused: %s", why);
+    atomic_fetch_add_explicit(&asker->bus->refused, 1, memory_order_relaxed);
+    log_warning("a request on %s was refused: %s", asker->channels->request, why);
     if (name->seq != 0)
-        send_short(bus, name, REACH_BODY_T_REFUSED, why);
+        send_short(asker, name, REACH_BODY_T_REFUSED, why);
 }
 
 /* The newest waits. One that has been answered is answered again: the answer was lost. */
-static void queue(struct finder_bus *bus, struct question *question,
-                  const struct question_name *name)
+static void queue(struct asker *asker, struct question *question, const struct question_name *name)
 {
+    struct finder_bus *bus = asker->bus;
     bool arrived = false;
 
     pthread_mutex_lock(&bus->mutex);
-    if (same(name, &bus->searched)) {
+    if (same(name, &asker->searched)) {
         question_free(question);
-        if (bus->answered)
-            reach_body_t_publish(bus->lcm, "REACH_BODY", &bus->answer);
+        if (asker->answered)
+            send(asker, &asker->answer);
     } else {
-        question_free(bus->waiting);
-        bus->waiting = question;
+        question_free(asker->waiting);
+        asker->waiting = question;
         arrived = true;
     }
     pthread_mutex_unlock(&bus->mutex);
@@ -74,7 +89,7 @@ static void queue(struct finder_bus *bus, struct question *question,
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
-    struct finder_bus *bus = user;
+    struct asker *asker = user;
     struct question_name name;
     char why[160];
     struct question *question =
@@ -82,11 +97,23 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
 
     (void)channel;
     if (!question) {
-        refuse(bus, &name, why);
+        refuse(asker, &name, why);
         return;
     }
-    send_short(bus, &name, REACH_BODY_T_SEARCHING, "the request has come");
-    queue(bus, question, &name);
+    send_short(asker, &name, REACH_BODY_T_SEARCHING, "the request has come");
+    queue(asker, question, &name);
+}
+
+static bool subscribe(struct finder_bus *bus)
+{
+    for (int i = 0; i < FINDER_ASKERS; i++) {
+        struct asker *asker = &bus->asker[i];
+        asker->bus = bus;
+        asker->channels = &finder_channels[i];
+        if (!lcm_subscribe(bus->lcm, asker->channels->request, on_request, asker))
+            return false;
+    }
+    return true;
 }
 
 struct finder_bus *finder_bus_create(lcm_t *lcm, void (*arrived)(void), char *error,
@@ -94,11 +121,12 @@ struct finder_bus *finder_bus_create(lcm_t *lcm, void (*arrived)(void), char *er
 {
     struct finder_bus *bus = calloc(1, sizeof *bus);
 
-    if (bus && lcm_subscribe(lcm, "REACH_BODY_REQUEST", on_request, bus)) {
+    if (bus) {
         bus->lcm = lcm;
         bus->arrived = arrived;
         pthread_mutex_init(&bus->mutex, NULL);
-        return bus;
+        if (subscribe(bus))
+            return bus;
     }
     snprintf(error, error_size, "cannot subscribe to the bus");
     free(bus);
@@ -113,20 +141,27 @@ int finder_bus_start(struct finder_bus *bus, char *error, size_t error_size)
 void finder_bus_stop(struct finder_bus *bus)
 {
     bus_receiver_stop(&bus->receiver);
-    question_free(bus->waiting);
+    for (int i = 0; i < FINDER_ASKERS; i++)
+        question_free(bus->asker[i].waiting);
     free(bus);
 }
 
+/* Those who ask take turns. */
 struct question *finder_bus_take(struct finder_bus *bus)
 {
-    struct question *question;
+    struct question *question = NULL;
 
     pthread_mutex_lock(&bus->mutex);
-    question = bus->waiting;
-    bus->waiting = NULL;
-    if (question) {
-        bus->searched = (struct question_name){question->request.utime, question->request.seq};
-        bus->answered = false;
+    for (int i = 1; i <= FINDER_ASKERS && !question; i++) {
+        int next = (bus->taken + i) % FINDER_ASKERS;
+        struct asker *asker = &bus->asker[next];
+        question = asker->waiting;
+        if (!question)
+            continue;
+        asker->waiting = NULL;
+        asker->searched = (struct question_name){question->request.utime, question->request.seq};
+        asker->answered = false;
+        bus->taken = next;
     }
     pthread_mutex_unlock(&bus->mutex);
     return question;
@@ -134,13 +169,15 @@ struct question *finder_bus_take(struct finder_bus *bus)
 
 void finder_bus_answer(struct finder_bus *bus, reach_body_t *answer)
 {
+    struct asker *asker = &bus->asker[bus->taken];
+
     pthread_mutex_lock(&bus->mutex);
     answer->utime = bus_utime();
-    answer->seq = bus->searched.seq;
-    answer->request_utime = bus->searched.utime;
-    bus->answer = *answer;
-    bus->answered = true;
-    reach_body_t_publish(bus->lcm, "REACH_BODY", answer);
+    answer->seq = asker->searched.seq;
+    answer->request_utime = asker->searched.utime;
+    asker->answer = *answer;
+    asker->answered = true;
+    send(asker, answer);
     pthread_mutex_unlock(&bus->mutex);
 }
 

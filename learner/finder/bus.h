@@ -1,6 +1,6 @@
 /* The finder's side of the LCM bus: a thread that receives, so that a request is answered at once
- * while another is searched for. Only the newest request waits: what came before it is of less
- * samples. */
+ * while another is searched for. Of each who asks (learner/bus/finder_channels.h) only the newest
+ * request waits: what came before it is of less samples. */
 #ifndef REACH_LEARNER_FINDER_BUS_H
 #define REACH_LEARNER_FINDER_BUS_H
 

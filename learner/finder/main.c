@@ -29,7 +29,8 @@ static const struct argument_row rows[] = {
 static const struct command_line line = {
     .program = "reach-finder",
     .usage = "reach-finder [options]",
-    .about = "Finds a robot's body from the samples that reachd sends: docs/body.md.",
+    .about = "Finds a robot's body from the samples that reachd or reach-learner sends: "
+             "docs/body.md.",
     .rows = rows,
     .exit_status = "0 ended as asked, 1 could not start or run",
 };
@@ -104,7 +105,7 @@ static void search(struct finder_bus *bus, const struct question *question)
 
 static void serve(struct finder_bus *bus)
 {
-    notify_send("READY=1\nSTATUS=waiting for reachd's samples");
+    notify_send("READY=1\nSTATUS=waiting for samples");
     log_info("ready");
     while (!end_asked) {
         struct question *question = finder_bus_take(bus);

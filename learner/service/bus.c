@@ -2,16 +2,19 @@
 
 #include "common/base/mailbox.h"
 #include "common/bus/receiver.h"
+#include "learner/bus/body_answer.h"
+#include "learner/bus/finder_channels.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
 
-#define QUEUE 256   /* requests; a power of two */
+#define QUEUE 256 /* requests; a power of two */
+#define BODIES 4
 #define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
 
 struct service_bus {
     lcm_t *lcm;
-    struct mailbox *requests;
+    struct mailbox *requests, *bodies;
     void (*arrived)(void *user);
     void *user;
     _Atomic int64_t malformed;
@@ -21,7 +24,8 @@ struct service_bus {
 size_t service_bus_memory(void)
 {
     return arena_footprint(sizeof(struct service_bus)) +
-           mailbox_memory(sizeof(reach_learner_request_t), QUEUE);
+           mailbox_memory(sizeof(reach_learner_request_t), QUEUE) +
+           mailbox_memory(sizeof(struct received_body), BODIES);
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
@@ -37,23 +41,43 @@ static void on_request(const lcm_recv_buf_t *message, const char *channel, void 
         bus->arrived(bus->user);
 }
 
+static void on_body(const lcm_recv_buf_t *message, const char *channel, void *user)
+{
+    struct service_bus *bus = user;
+    struct received_body received;
+
+    (void)channel;
+    if (!body_answer_read(message->data, message->data_size, &received))
+        atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
+    else
+        mailbox_put(bus->bodies, &received); /* one that finds no room comes again */
+}
+
+static bool subscribe(struct service_bus *bus)
+{
+    lcm_subscription_t *requests = lcm_subscribe(bus->lcm, "LEARNER_REQUEST", on_request, bus);
+
+    return requests && lcm_subscription_set_queue_capacity(requests, UNTAKEN) == 0 &&
+           lcm_subscribe(bus->lcm, finder_channels[FINDER_ASKED_BY_LEARNER].answer, on_body, bus);
+}
+
 struct service_bus *service_bus_create(lcm_t *lcm, void (*arrived)(void *user), void *user,
                                        struct arena *arena, char *error, size_t error_size)
 {
     struct service_bus *bus = arena_alloc(arena, sizeof *bus);
-    lcm_subscription_t *subscription;
 
-    if (bus)
+    if (bus) {
         bus->requests = mailbox_create(arena, sizeof(reach_learner_request_t), QUEUE);
-    if (!bus || !bus->requests) {
+        bus->bodies = mailbox_create(arena, sizeof(struct received_body), BODIES);
+    }
+    if (!bus || !bus->requests || !bus->bodies) {
         snprintf(error, error_size, "out of memory");
         return NULL;
     }
     bus->lcm = lcm;
     bus->arrived = arrived;
     bus->user = user;
-    subscription = lcm_subscribe(lcm, "LEARNER_REQUEST", on_request, bus);
-    if (!subscription || lcm_subscription_set_queue_capacity(subscription, UNTAKEN)) {
+    if (!subscribe(bus)) {
         snprintf(error, error_size, "cannot subscribe to the bus");
         return NULL;
     }
@@ -73,6 +97,11 @@ void service_bus_stop(struct service_bus *bus)
 bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request)
 {
     return mailbox_take(bus->requests, request);
+}
+
+struct mailbox *service_bus_bodies(struct service_bus *bus)
+{
+    return bus->bodies;
 }
 
 int64_t service_bus_dropped(const struct service_bus *bus)

@@ -3,6 +3,7 @@
 #ifndef REACH_LEARNER_SERVICE_BUS_H
 #define REACH_LEARNER_SERVICE_BUS_H
 
+#include "common/base/mailbox.h"
 #include "learner/service/desk.h"
 
 #include <lcm/lcm.h>
@@ -25,6 +26,9 @@ void service_bus_stop(struct service_bus *bus);
 
 /* The oldest request of the queue. Returns false when it is empty. */
 bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request);
+
+/* Answers of reach-finder's, struct received_body, for the thread that serves the store. */
+struct mailbox *service_bus_bodies(struct service_bus *bus);
 
 /* Since start: requests that found the queue full, and messages that were none. */
 int64_t service_bus_dropped(const struct service_bus *bus);

@@ -92,6 +92,16 @@ void desk_note_losses(struct desk *desk, int64_t dropped, int64_t malformed)
     desk->malformed = malformed;
 }
 
+/* Returns a constant of learner_reply_t.body. */
+static int8_t body_of(const struct desk *desk, const struct model_store_report *report)
+{
+    static const int8_t of_search[] = {[MODEL_STORE_SEARCHING] = REPLY(BODY_SEARCHING),
+                                       [MODEL_STORE_NO_CHAIN] = REPLY(BODY_NO_CHAIN),
+                                       [MODEL_STORE_NO_FINDER] = REPLY(BODY_NO_FINDER)};
+
+    return learner_body(desk->learner) ? REPLY(BODY_FOUND) : of_search[report->search];
+}
+
 void desk_describe(const struct desk *desk, reach_learner_reply_t *reply)
 {
     const struct learner_statistics statistics = learner_get_statistics(desk->learner);
@@ -100,6 +110,7 @@ void desk_describe(const struct desk *desk, reach_learner_reply_t *reply)
     *reply = (reach_learner_reply_t){
         .n_inputs = desk->n_inputs,
         .n_outputs = desk->n_outputs,
+        .body = body_of(desk, &report),
         .experts = statistics.experts,
         .capacity = statistics.capacity,
         .samples = (int64_t)model_samples(desk->learner),
@@ -147,6 +158,7 @@ static int8_t learn(struct desk *desk, const reach_learner_request_t *request)
         return REPLY(FROZEN);
     model_store_note(desk->store, request->z, request->x);
     result = learner_update(desk->learner, request->z, request->x);
+    model_store_learned(desk->store, desk->learner);
     health_count(&desk->health, result);
     return (int8_t)result;
 }
@@ -155,7 +167,7 @@ static int8_t update(struct desk *desk, const reach_learner_request_t *request, 
 {
     struct waiting waiting = {.client = request->client};
 
-    if (desk->keeps && (model_store_full(desk->store) || mailbox_full(desk->waiting)))
+    if (!model_store_takes(desk->store) || (desk->keeps && mailbox_full(desk->waiting)))
         return REPLY(BUSY);
     deed->learned = learn(desk, request);
     deed->sample = (int64_t)model_samples(desk->learner);
@@ -309,12 +321,12 @@ static bool update_is_due(struct desk *desk, struct waiting *waiting)
            mailbox_take(desk->waiting, waiting);
 }
 
+/* A body that was found takes its place here, too. */
 static bool save_is_due(struct desk *desk)
 {
-    enum model_store_result result =
-        desk->saving ? model_store_poll(desk->store, &desk->learner) : MODEL_STORE_NOTHING;
+    enum model_store_result result = model_store_poll(desk->store, &desk->learner);
 
-    if (result == MODEL_STORE_NOTHING)
+    if (!desk->saving || result == MODEL_STORE_NOTHING)
         return false;
     if (result == MODEL_STORE_FAILED)
         desk->save.deed.status = REPLY(FAILED);

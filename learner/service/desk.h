@@ -48,7 +48,8 @@ struct desk_output {
 enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request, int64_t now,
                            struct desk_output *output);
 
-/* The next answer that waited and need not any longer. Returns false when there is none. */
+/* The next answer that waited and need not any longer. Returns false when there is none. To be
+ * called often: a body that was found becomes the learner's in here. */
 bool desk_due(struct desk *desk, int64_t now, reach_learner_reply_t *reply);
 
 /* What was lost before it came here, since start, for the replies. */

@@ -3,6 +3,7 @@
 #include "common/bus/open.h"
 #include "common/program/log.h"
 #include "common/program/notify.h"
+#include "learner/bus/finder_of_bus.h"
 #include "learner/service/bus.h"
 #include "learner/store/disk_thread.h"
 
@@ -24,8 +25,10 @@ struct server {
     struct model_store *store;
     struct desk *desk;
     struct service_bus *bus;
+    struct finder_of_bus finder;
     struct disk_thread disk;
-    bool keeps;
+    bool keeps;  /* has a directory */
+    bool served; /* the store has a thread: it keeps a model, or looks for a body */
     struct notify_watchdog watchdog;
     int64_t told;
     int64_t told_of[HEALTH_TROUBLES]; /* when; 0 = never */
@@ -144,7 +147,7 @@ static void finish(struct server *server)
     service_bus_stop(server->bus);
     while (answer_batch(server))
         ;
-    if (server->keeps) {
+    if (server->served) {
         disk_thread_stop(&server->disk);
         model_store_serve(server->store, bus_monotonic_us());
     }
@@ -155,8 +158,10 @@ static int create(struct server *server, const struct settings *settings, lcm_t 
                   size_t error_size)
 {
     const struct learner_config *config = &settings->learner.config;
-    const struct model_store_settings store = settings_store(settings);
+    struct model_store_settings store = settings_store(settings);
 
+    finder_of_bus_init(&server->finder, FINDER_ASKED_BY_LEARNER);
+    store.finder = &server->finder.port;
     server->keeps = settings->model_directory[0];
     server->arena = arena_create(learner_memory(config) + model_store_memory() + desk_memory() +
                                  service_bus_memory());
@@ -170,6 +175,7 @@ static int create(struct server *server, const struct settings *settings, lcm_t 
     server->store = model_store_create(&store, server->arena, error, error_size);
     if (!server->store || model_store_open(server->store, server->learner, error, error_size))
         return -1;
+    server->served = model_store_is_served(server->store);
     server->desk =
         desk_create(config, server->learner, server->store, server->keeps, server->arena);
     if (!server->desk) {
@@ -179,13 +185,17 @@ static int create(struct server *server, const struct settings *settings, lcm_t 
     if (settings->learn_frozen)
         desk_learn_frozen(server->desk);
     server->bus = service_bus_create(lcm, wake, NULL, server->arena, error, error_size);
-    return server->bus ? 0 : -1;
+    if (!server->bus)
+        return -1;
+    server->finder.lcm = lcm;
+    server->finder.answers = service_bus_bodies(server->bus);
+    return 0;
 }
 
 /* The first snapshot is made before the first request is taken, so that samples can be safe. */
 static int start(struct server *server, char *error, size_t error_size)
 {
-    if (server->keeps) {
+    if (server->served) {
         model_store_serve(server->store, bus_monotonic_us());
         server->disk.looked = wake;
         if (disk_thread_start(&server->disk, server->store, error, error_size))
@@ -193,7 +203,7 @@ static int start(struct server *server, char *error, size_t error_size)
     }
     if (service_bus_start(server->bus, error, error_size) == 0)
         return 0;
-    if (server->keeps)
+    if (server->served)
         disk_thread_stop(&server->disk);
     return -1;
 }
@@ -211,6 +221,7 @@ int server_run(const struct settings *settings, lcm_t *lcm, char *error, size_t 
         result = 0;
     }
     model_store_close(server.store);
+    finder_of_bus_end(&server.finder);
     arena_destroy(server.arena);
     return result;
 }

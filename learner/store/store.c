@@ -177,6 +177,19 @@ bool model_store_full(const struct model_store *store)
     return store->notes && mailbox_full(store->noted);
 }
 
+bool model_store_is_served(const struct model_store *store)
+{
+    return store->notes;
+}
+
+bool model_store_takes(const struct model_store *store)
+{
+    enum stage stage = model_store_stage(store);
+
+    return !store->notes ||
+           (stage != BODY_AWAITED && stage != BODY_GIVEN && !mailbox_full(store->noted));
+}
+
 bool model_store_note(struct model_store *store, const double *z, const double *x)
 {
     const struct learner_config *learner = &store->settings.learner;

@@ -65,6 +65,12 @@ bool model_store_note(struct model_store *store, const double *z, const double *
  */
 void model_store_learned(struct model_store *store, const struct learner *learner);
 
+/* Whether model_store_serve has anything to do: a model to keep, or a body to look for. */
+bool model_store_is_served(const struct model_store *store);
+
+/* Loop thread: whether model_store_note would take a sample now. */
+bool model_store_takes(const struct model_store *store);
+
 /* Loop thread: whether there is no room for a sample. */
 bool model_store_full(const struct model_store *store);
 

@@ -1,8 +1,8 @@
 /* What reachd and reach-finder tell each other of bodies. The first byte says which: an answer,
  * whose fingerprint and checksum are made right, so that its numbers are looked at; or a request.
  * Whatever is let through can be learned on and predicted with, or searched in. */
-#include "daemon/bus/incoming.h"
 #include "harness.h"
+#include "learner/bus/body_answer.h"
 #include "learner/finder/question.h"
 
 #include "common/base/checksum.h"
@@ -70,7 +70,7 @@ static void hear_answer(const uint8_t *data, size_t size)
     HARNESS_REQUIRE(reach_body_t_decode(bytes, 0, (int)whole, &message) == (int)whole);
     put(bytes + whole - sizeof message.numbers - 4,
         checksum_crc32(message.numbers, sizeof message.numbers), 4);
-    if (incoming_body(bytes, whole, &received) && received.answer.kind == BODY_ANSWER_REPORT &&
+    if (body_answer_read(bytes, whole, &received) && received.answer.kind == BODY_ANSWER_REPORT &&
         received.answer.report.outcome == FINDER_FOUND)
         stand_on(&received.answer.body);
 }

@@ -15,7 +15,8 @@ from .event_log import Event, Gap, events, told
 IMAGES = "STEREO_IMAGES"
 JOINTS = "JOINT_STATE"
 _PIECE = 4 << 20  # bytes
-_SEARCH = "REACH_BODY_REQUEST"  # repeats samples; its size varies
+# They repeat samples; their size varies.
+_SEARCHES = ("REACH_BODY_REQUEST", "LEARNER_BODY_REQUEST")
 _TESTS_OF_THE_BUS = re.compile(r"(REACH|LCM)_SELF_TEST.*")  # what programs send themselves
 _MOST_JOINTS = 1000
 
@@ -129,7 +130,7 @@ class Stream:
                 piece.groups += self._joint_groups(at, found)
             elif channel == IMAGES:
                 piece.images = [(place, found[place]) for place in at]
-            elif channel == _SEARCH:
+            elif channel in _SEARCHES:
                 self.left_out[channel] += len(at)
             elif not _TESTS_OF_THE_BUS.fullmatch(channel):
                 self.foreign[channel] += len(at)

@@ -22,7 +22,7 @@ except ImportError:
 
 __all__ = ["CHANNELS", "ROOT", "bot_core", "described", "dtype_of", "reach"]
 
-# Channel -> type of what a log holds. Images, JOINT_STATE and REACH_BODY_REQUEST, whose size
+# Channel -> type of what a log holds. Images, JOINT_STATE and requests for a body, whose size
 # varies, are apart.
 CHANNELS = {
     "ROBOT_STATE": "robot_state_t",
@@ -42,6 +42,7 @@ CHANNELS = {
     "REACH_CONFIG": "config_t",
     "REACH_BODY": "body_t",
     "REACH_BODY_IN_USE": "body_t",
+    "LEARNER_BODY": "body_t",
     "REACH_HELLO": "hello_t",
 }
 

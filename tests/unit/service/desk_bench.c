@@ -48,28 +48,30 @@ static void introduce(void)
     ck_assert_int_eq(on.output.reply.n_outputs, on.settings.learner.n_outputs);
 }
 
-static void open_desk(bool keeps)
+void desk_bench_open(struct model_store_settings settings)
 {
+    const bool keeps = settings.directory[0];
+
     log_open("test", LOG_LEVEL_ERROR - 1);
-    on.settings = store_bench_settings(keeps ? FAKE_DISK_DIRECTORY : "", &fake_disk_files);
+    on.settings = settings;
     on.bench = store_bench_create(&on.settings);
     on.desk = desk_create(&on.settings.learner, on.bench.learner, on.bench.store, keeps,
                           arena_create(desk_memory()));
     ck_assert_ptr_nonnull(on.desk);
+    if (keeps)
+        store_bench_serve(&on.bench);
+    introduce();
 }
 
 void desk_bench_forgetful(void)
 {
-    open_desk(false);
-    introduce();
+    desk_bench_open(store_bench_settings("", &fake_disk_files));
 }
 
 void desk_bench_keeping(void)
 {
     fake_disk_reset(random_seed(1));
-    open_desk(true);
-    store_bench_serve(&on.bench);
-    introduce();
+    desk_bench_open(store_bench_settings(FAKE_DISK_DIRECTORY, &fake_disk_files));
 }
 
 void desk_bench_learn(int samples)

@@ -22,9 +22,12 @@ struct desk_bench {
 };
 extern struct desk_bench on;
 
-/* Opens the desk, and makes CLIENT known to it. */
+/* Opens the desk, and makes CLIENT known to it; with the first snapshot made where there is a
+ * directory. */
+void desk_bench_open(struct model_store_settings settings);
+/* One that keeps nothing. */
 void desk_bench_forgetful(void);
-/* The same on a disk that is healthy and empty, with the first snapshot made. */
+/* One on a disk that is healthy and empty. */
 void desk_bench_keeping(void);
 
 /* The client's next request, about numbers that differ from those before. */

@@ -88,8 +88,8 @@ struct model_store_settings body_bench_settings(const char *directory)
     return settings;
 }
 
-/* The same in every bench: a tip of 0.2 m on the chain, and some noise. */
-static void sample(uint64_t number, double *z, double *x)
+/* A tip of 0.2 m on the chain, and some noise. */
+void body_bench_sample(uint64_t number, double *z, double *x)
 {
     uint64_t scrambled = number * 0x9E3779B97F4A7C15ULL;
     const double tip[3] = {0.2, 0, 0.01};
@@ -113,7 +113,7 @@ bool body_bench_learn_one(struct store_bench *bench)
 {
     double z[2], x[BODY_OUTPUTS];
 
-    sample(model_samples(bench->learner) + 1, z, x);
+    body_bench_sample(model_samples(bench->learner) + 1, z, x);
     if (!model_store_note(bench->store, z, x))
         return false;
     learner_update(bench->learner, z, x);
@@ -162,7 +162,7 @@ uint64_t body_bench_hash_forgetting(const struct model_store_settings *settings,
     bench.learner = learner_create(&settings->learner, bench.arena, error, sizeof error);
     ck_assert_msg(bench.learner != NULL, "%s", error);
     for (uint64_t number = 1; number <= samples; number++) {
-        sample(number, z, x);
+        body_bench_sample(number, z, x);
         learner_update(bench.learner, z, x);
         for (int i = 0; i < n; i++)
             if (given[i] == number)

@@ -33,6 +33,9 @@ extern const struct finder_port body_bench_port;
 /* Settings as those of store_bench.h. */
 struct model_store_settings body_bench_settings(const char *directory);
 
+/* Sample `number`, from 1, the same in every bench: z[2], x[BODY_OUTPUTS]. */
+void body_bench_sample(uint64_t number, double *z, double *x);
+
 /* The next sample into the loop's learner, as a tick does it. Returns false when the store has no
  * room. */
 bool body_bench_learn_one(struct store_bench *bench);

@@ -1,4 +1,4 @@
-#include "daemon/finder_of_bus.h"
+#include "learner/bus/finder_of_bus.h"
 
 #include "common/bus/open.h"
 #include "learner/bus/body_message.h"
@@ -71,7 +71,8 @@ static void ask_again(void *user)
     struct finder_of_bus *finder = user;
 
     if (finder->request.seq > 0)
-        daemon_bus_ask_body(finder->bus, &finder->request);
+        reach_body_request_t_publish(finder->lcm, finder_channels[finder->asker].request,
+                                     &finder->request);
 }
 
 static void ask(void *user, const struct body_search *search)
@@ -90,12 +91,12 @@ static void ask(void *user, const struct body_search *search)
     ask_again(finder);
 }
 
-/* Answers to another daemon's requests, of before this one's start, are none of ours. */
+/* Answers to requests of before this program's start are none of ours. */
 static bool take(void *user, struct body_answer *answer)
 {
     struct finder_of_bus *finder = user;
 
-    while (mailbox_take(daemon_bus_bodies(finder->bus), &finder->received)) {
+    while (mailbox_take(finder->answers, &finder->received)) {
         if (finder->received.request_utime != finder->request.utime)
             continue;
         *answer = finder->received.answer;
@@ -115,12 +116,13 @@ static void tell(void *user, const struct body *body)
     message->error = body->error;
     message->doubt = body->doubt;
     body_message_put(body, message);
-    daemon_bus_tell_body(finder->bus, message);
+    reach_body_t_publish(finder->lcm, "REACH_BODY_IN_USE", message);
 }
 
-void finder_of_bus_init(struct finder_of_bus *finder)
+void finder_of_bus_init(struct finder_of_bus *finder, enum finder_asker asker)
 {
     memset(finder, 0, sizeof *finder);
+    finder->asker = asker;
     finder->port = (struct finder_port){
         .ask = ask, .ask_again = ask_again, .take = take, .tell = tell, .user = finder};
 }
