@@ -240,6 +240,7 @@ static int give_body(void *self, const struct body *body, char *err, size_t err_
     learner->found = true;
     learner->given_up = 0.0;
     body_begin_trial(learner, body);
+    learner->contexts->firm = !learner->doubtful; /* also of one that was just loaded */
     contexts_stand_on(learner->contexts, body);
     for (int i = 0; first && i < waiting->n; i++)
         contexts_learn(learner->contexts, waiting->z + (ptrdiff_t)i * waiting->n_inputs,

@@ -2,9 +2,11 @@
 
 #include "common/bus/open.h"
 
+#include <reach_end_effector_t.h>
 #include <reach_marker_t.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void on_command(const lcm_recv_buf_t *buffer, const char *channel,
                        const reach_robot_command_t *command, void *user)
@@ -75,6 +77,14 @@ static void publish_marker(lcm_t *lcm, const struct observation *seen)
     reach_marker_t_publish(lcm, "MARKER", &marker);
 }
 
+static void publish_effector(lcm_t *lcm, const struct observation *measured)
+{
+    reach_end_effector_t effector = {.utime = measured->utime, .seq = measured->seq};
+
+    memcpy(effector.position, measured->value, sizeof effector.position);
+    reach_end_effector_t_publish(lcm, "END_EFFECTOR", &effector);
+}
+
 static void publish(struct robot_on_bus *robot)
 {
     struct fake_robot *body = &robot->robot;
@@ -83,7 +93,10 @@ static void publish(struct robot_on_bus *robot)
     body->seq--; /* the same state under the same number */
     state = fake_robot_state(body);
     state.lockstep = 1;
-    if (body->has_marker) {
+    if (body->has_marker && body->config->space.kind == SPACE_CARTESIAN) {
+        state.effector_due = body->marker.utime;
+        publish_effector(robot->lcm, &body->marker);
+    } else if (body->has_marker) {
         state.vision_due = body->marker.utime;
         publish_marker(robot->lcm, &body->marker);
     }

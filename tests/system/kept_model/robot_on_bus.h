@@ -1,6 +1,6 @@
 /* The fake robot of the unit tests on an LCM bus, in lockstep: it publishes where its joints are
- * and what its eyes see, and waits for the command and the status of that tick before it moves on.
- * It asks the daemon to babble for ever. */
+ * and what its eyes see, or where its end-effector is, and waits for the command and the status of
+ * that tick before it moves on. It asks the daemon to babble for ever. */
 #ifndef REACH_TEST_ROBOT_ON_BUS_H
 #define REACH_TEST_ROBOT_ON_BUS_H
 

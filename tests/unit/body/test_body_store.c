@@ -89,6 +89,25 @@ START_TEST(a_loaded_learner_goes_on_to_the_byte)
 }
 END_TEST
 
+/* Also in one that has learned nothing by itself, as after a kill: the body is given at once. */
+START_TEST(a_loaded_learner_takes_a_body_to_the_byte)
+{
+    bed_seed();
+    for (int sees = 0; sees < 2; sees++) {
+        struct body body = made_up_arm(JOINTS, sees);
+        struct learner_config config = body_config(JOINTS, sees, 16);
+        struct learner *one = bed_create(&config);
+        struct learner *other = bed_create(&config);
+        teach(one, &body, 400, 1);
+        load(other, one);
+        give(one, &body);
+        give(other, &body);
+        bed_expect_same_state(one, other);
+        bed_clean();
+    }
+}
+END_TEST
+
 /* A state has the mixture's experts or none: however many contexts there are. */
 START_TEST(a_body_lets_go_of_the_mixture)
 {
@@ -215,6 +234,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         a_loaded_learner_goes_on_to_the_byte,
+        a_loaded_learner_takes_a_body_to_the_byte,
         a_body_lets_go_of_the_mixture,
         numbers_that_cannot_be_are_refused,
         what_was_before_is_gone,
