@@ -251,7 +251,7 @@ int main(int argc, char **argv)
         return 2;
     }
     setvbuf(stdout, NULL, _IOLBF, 0);
-    trial_prepare(&trial, argv[1], argv[2]);
+    trial_prepare(&trial, argv[1], argv[2], NULL);
     mount_small_disk(&trial);
     full_disk(&trial);
     read_only_directory(&trial);

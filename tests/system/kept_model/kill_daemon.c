@@ -139,7 +139,7 @@ int main(int argc, char **argv)
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf("kill_daemon: seed %lld\n", seed);
     kills.random = random_seed(seed);
-    trial_prepare(&kills.trial, argv[1], argv[2]);
+    trial_prepare(&kills.trial, argv[1], argv[2], NULL);
     for (n = 0; n < wanted; n++)
         kill_and_judge(&kills, n % 5 < 3);
     /* A snapshot is short, and the killer may wake too late: more of those, until they are enough.

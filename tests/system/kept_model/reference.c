@@ -1,10 +1,17 @@
 #include "reference.h"
 
-#include "learner/store/model_file.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static struct model_bytes capture(const struct reference *reference)
+{
+    struct model_bytes model = {.capacity = learner_save_size(reference->learner)};
+
+    model.bytes = malloc(model.capacity);
+    model_capture(&model, reference->learner);
+    return model;
+}
 
 void reference_init(struct reference *reference, const struct config *config)
 {
@@ -19,6 +26,22 @@ void reference_init(struct reference *reference, const struct config *config)
         fprintf(stderr, "reference: %s\n", error);
         exit(1);
     }
+    reference->empty = capture(reference);
+}
+
+static void load(struct reference *reference, const struct model_bytes *model)
+{
+    char why[200];
+
+    if (learner_load(reference->learner, model->bytes, model->size, why, sizeof why))
+        abort();
+}
+
+void reference_forget(struct reference *reference)
+{
+    load(reference, &reference->empty);
+    reference->learned = reference->heard = 0;
+    reference->n_bodies = reference->given = 0;
 }
 
 void reference_hear(void *user, const reach_sample_t *sample)
@@ -68,15 +91,6 @@ static void learn_up_to(struct reference *reference, uint64_t number)
     }
 }
 
-static struct model_bytes capture(const struct reference *reference)
-{
-    struct model_bytes model = {.capacity = learner_save_size(reference->learner)};
-
-    model.bytes = malloc(model.capacity);
-    model_capture(&model, reference->learner);
-    return model;
-}
-
 static uint64_t hash_of(const struct reference *reference)
 {
     const struct model_bytes model = capture(reference);
@@ -90,11 +104,8 @@ static uint64_t hash_of(const struct reference *reference)
 static bool agrees_with_found(struct reference *reference, const struct model_bytes *then,
                               uint64_t from, uint64_t number, uint64_t hash)
 {
-    char why[200];
-
     for (uint64_t at = from; at <= number; at++) {
-        if (learner_load(reference->learner, then->bytes, then->size, why, sizeof why))
-            abort();
+        load(reference, then);
         reference->learned = from;
         learn_up_to(reference, at);
         give_to_learner(reference, &reference->found);

@@ -5,6 +5,7 @@
 
 #include "daemon/config/config.h"
 #include "learner/body/chain/body.h"
+#include "learner/store/model_file.h"
 
 #include <reach_sample_t.h>
 #include <stdbool.h>
@@ -22,8 +23,9 @@ struct reference_body {
 struct reference {
     struct arena *arena;
     struct learner *learner;
-    uint64_t learned; /* samples given to the learner */
-    uint64_t heard;   /* samples announced, those that the learner has learned among them */
+    struct model_bytes empty; /* the learner before its first sample */
+    uint64_t learned;         /* samples given to the learner */
+    uint64_t heard;           /* samples announced, those that the learner has learned among them */
     struct {
         double z[16], x[8];
     } * samples; /* in order, from number 1 at index 0 */
@@ -38,6 +40,9 @@ struct reference {
 };
 
 void reference_init(struct reference *reference, const struct config *config);
+
+/* It knows nothing again. */
+void reference_forget(struct reference *reference);
 
 /* The next sample; as robot_sample_fn with the reference as `user`. */
 void reference_hear(void *reference, const reach_sample_t *sample);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 void trial_fail(const struct trial *trial, const char *what)
 {
@@ -24,7 +25,7 @@ static void hear(void *user, const reach_sample_t *sample)
     reference_hear(&trial->reference, sample);
 }
 
-void trial_prepare(struct trial *trial, const char *reachd, const char *config)
+void trial_prepare(struct trial *trial, const char *reachd, const char *config, const char *setting)
 {
     const char *const options[] = {"--config", config,
                                    "--set",    trial->set_directory,
@@ -32,16 +33,20 @@ void trial_prepare(struct trial *trial, const char *reachd, const char *config)
                                    "--set",    "model.snapshot_budget=0",
                                    "--set",    "model.sync=0.01",
                                    "--set",    "fixation.frames=3",
-                                   "--set",    "babble.tolerance=3"};
+                                   "--set",    "babble.tolerance=3",
+                                   "--set",    setting};
+    const size_t n = sizeof options / sizeof options[0];
     char error[500];
 
     _Static_assert(sizeof options / sizeof options[0] + 2 <
                        sizeof trial->options / sizeof trial->options[0],
                    "one more, and the end");
     memcpy(trial->options, options, sizeof options);
+    if (!setting)
+        trial->options[n - 2] = NULL;
     strcpy(trial->directory, "/tmp/reach-kept-XXXXXX");
     if (!mkdtemp(trial->directory) ||
-        config_load(&trial->config, &config, 1, NULL, 0, error, sizeof error))
+        config_load(&trial->config, &config, 1, &setting, setting != NULL, error, sizeof error))
         trial_fail(trial, "cannot begin");
     snprintf(trial->log, sizeof trial->log, "%s.log", trial->directory);
     snprintf(trial->set_directory, sizeof trial->set_directory, "model.directory=%s",
@@ -57,6 +62,15 @@ void trial_clean(struct trial *trial)
 {
     trial_copy("", trial->directory);
     trial_copy("", trial->log);
+}
+
+void trial_begin_anew(struct trial *trial)
+{
+    trial_copy("", trial->directory);
+    if (mkdir(trial->directory, 0700))
+        trial_fail(trial, "cannot make the directory again");
+    reference_forget(&trial->reference);
+    trial->stored = trial->base = 0;
 }
 
 void trial_start(struct trial *trial)

@@ -27,9 +27,14 @@ struct trial {
 /* Ends the program, with the files left in place. */
 _Noreturn void trial_fail(const struct trial *trial, const char *what);
 
-/* An empty directory, a robot on the bus. */
-void trial_prepare(struct trial *trial, const char *reachd, const char *config);
+/* An empty directory, a robot on the bus. `setting` is an option of the daemon's, NAME=VALUE, kept,
+ * not copied; NULL: none. */
+void trial_prepare(struct trial *trial, const char *reachd, const char *config,
+                   const char *setting);
 void trial_clean(struct trial *trial);
+
+/* The directory is empty again, and the reference knows nothing. */
+void trial_begin_anew(struct trial *trial);
 
 void trial_start(struct trial *trial);
 
