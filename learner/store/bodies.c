@@ -145,13 +145,15 @@ static void say_found(const struct body_answer *answer)
              100 * answer->report.doubt);
 }
 
-/* What the next search may begin with: never a body that was refuted. */
-static void keep_candidate(struct search *search)
+/* What the next search may begin with: never a body that was refuted, after which it begins as the
+ * first one did. */
+static void keep_candidate(struct model_store *store)
 {
+    struct search *search = &store->search;
     const struct finder_report *report = &search->answer.report;
 
     if (report->outcome == FINDER_REFUTED)
-        search->any_candidate = false;
+        model_store_begin_with(store);
     if (!report->any_body)
         return;
     search->any_candidate = true;
@@ -168,14 +170,14 @@ static void take_report(struct model_store *store)
         search_set_stage(store, SEARCH_FOUND);
         break;
     case FINDER_REFUTED:
-        keep_candidate(&store->search);
+        keep_candidate(store);
         if (learner_body(store->shadow))
             search_set_stage(store, SEARCH_FOUND);
         else
             search_end(store, MODEL_STORE_NOT_YET);
         break;
     case FINDER_NOT_YET:
-        keep_candidate(&store->search);
+        keep_candidate(store);
         log_debug("no body yet: %s", answer->report.why);
         search_end(store, MODEL_STORE_NOT_YET);
         break;

@@ -248,7 +248,7 @@ START_TEST(the_body_in_use_is_told_when_asked)
 }
 END_TEST
 
-/* The robot's URDF, say. */
+/* The robot's URDF, say; so does the first one after a body that was refuted. */
 START_TEST(the_first_search_begins_with_a_given_body)
 {
     struct body start = body_bench_body();
@@ -259,6 +259,9 @@ START_TEST(the_first_search_begins_with_a_given_body)
     bench = store_bench_create(&settings);
     ticks_until(&bench, true);
     ck_assert_int_eq(body_bench_finder.asked, 1);
+    ck_assert(body_bench_finder.started);
+    body_bench_finder.outcome = FINDER_REFUTED;
+    ticks_until(&bench, false);
     ck_assert(body_bench_finder.started);
     end(&bench);
 }
