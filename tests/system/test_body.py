@@ -134,20 +134,24 @@ class Body(Replay):
         self.assertEqual([sign for sign, _ in groupby(body > 0 for body in given)],
                          [True, False, True, False])  # fmt: skip
         said = (self.folder / "reachd.log").read_text()
+        self.assertRegex(said, r"refused: \d REACH_BODY")
         self.assertIn("given up, it explains the samples no more: it is none", said)
 
     def believe_and_refute(self, session: Session) -> None:
         """A right one, a wrong one, none; and the search begins anew."""
-        found = []
-        session.bus._listen("REACH_BODY", reach.body_t, found.append)
+        heard = []
+        listening = session.bus._lcm.subscribe("REACH_BODY", lambda _, data: heard.append(data))
         session.explore(15)
+        session.bus._lcm.unsubscribe(listening)
         self.assertEqual(session.bus.status.body, FOUND)
-        right = [body for body in found if body.outcome == body.FOUND][-1]
+        answers = map(reach.body_t.decode, heard)
+        right = [body for body in answers if body.outcome == body.FOUND][-1]
         session.processes.kill("finder")
         finder = WrongFinder(session, right)
         self.assert_works(session.reachctl("forget-body"))
         session.explore(5)
         self.assertEqual(session.bus.status.body, FOUND)
+        self.refuse_nonsense(session, finder.wrong)
         finder.refutes = True
         self.explore_until_it_is_gone(session)
         self.assertEqual(session.bus.status.body_samples, 0)
@@ -156,6 +160,17 @@ class Body(Replay):
         self.assertGreater(session.bus.status.body_searches, searches)
         self.assertNotEqual(session.bus.status.body, FOUND)
         self.assertGreater(session.bus.status.experts, 0)
+
+    def refuse_nonsense(self, session: Session, body: reach.body_t) -> None:
+        """Counted, and said; the body in use stays."""
+        whole = body.encode()
+        unlike = whole[:-1] + bytes([whole[-1] ^ 1])  # as its checksum says
+        for data in (b"", whole[:-1], unlike):
+            session.bus._lcm.publish("REACH_BODY", data)
+        session.clock.advance(2.0)
+        refused = session.bus.status.refused[reach.status_t.CHANNEL_BODY]
+        self.assertEqual(refused[reach.status_t.MALFORMED], 3)
+        self.assertEqual(session.bus.status.body, FOUND)
 
     def explore_until_it_is_gone(self, session: Session) -> None:
         for _ in range(10):
