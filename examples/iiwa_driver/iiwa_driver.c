@@ -43,12 +43,13 @@ struct driver {
 
 static const char usage[] =
     "usage: iiwa_driver [--arm-url URL] [--lcm-url URL] [--speed SHARE]\n"
-    "                   [--acceleration RAD/S2] [--leash RAD]\n"
+    "                   [--acceleration RAD/S2] [--leash RAD] [--rate HZ]\n"
     "Puts a KUKA iiwa that speaks Drake's messages on reachd's bus.\n"
     "  --arm-url URL          the LCM bus of IIWA_STATUS and IIWA_COMMAND\n"
     "  --lcm-url URL          the LCM bus of reachd; both default to LCM's on this machine\n"
-    "  --speed SHARE          of the arm's fastest velocities, 0.01 .. 1 (default 0.5)\n"
+    "  --speed SHARE          of the arm's fastest velocities, 0.01 .. 1 (default 0.8)\n"
     "  --acceleration RAD/S2  of every joint, 0.1 .. 20 (default 4)\n"
+    "  --rate HZ              of IIWA_STATUS at least, 20 .. 1000 (default 200)\n"
     "  --leash RAD            most distance of the set-point from the arm, 0.01 .. 1\n"
     "                         (default 0.15)\n";
 
@@ -111,7 +112,7 @@ static void on_status(const lcm_recv_buf_t *message, const char *channel,
     (void)message;
     (void)channel;
     if (status->num_joints != JOINTS ||
-        !motion_step(driver->motion, status->joint_position_measured, NULL, status->utime,
+        !motion_step(driver->motion, status->joint_position_measured, NULL, NULL, status->utime,
                      clock_us(CLOCK_MONOTONIC), position, velocity)) {
         if (driver->refused++ == 0)
             fprintf(stderr,
@@ -173,22 +174,23 @@ static int open_buses(struct driver *driver, const char *arm_url, const char *bu
     return 0;
 }
 
-static struct motion *make_motion(double share, double acceleration, double leash)
+struct settings {
+    const char *arm_url, *bus_url;
+    double share, acceleration, leash, rate;
+};
+
+static struct motion *make_motion(const struct settings *settings)
 {
     double lowest[JOINTS], fastest[JOINTS], accelerations[JOINTS];
 
     for (int i = 0; i < JOINTS; i++) {
         lowest[i] = -range[i];
-        fastest[i] = share * speed[i];
-        accelerations[i] = acceleration;
+        fastest[i] = settings->share * speed[i];
+        accelerations[i] = settings->acceleration;
     }
-    return motion_create(JOINTS, lowest, range, fastest, accelerations, leash);
+    return motion_create(JOINTS, lowest, range, fastest, accelerations, settings->leash,
+                         1 / settings->rate);
 }
-
-struct settings {
-    const char *arm_url, *bus_url;
-    double share, acceleration, leash;
-};
 
 /* A number of an option. Returns 0, or -1 having said why. */
 static int number(const char *name, double least, double most, double *value)
@@ -225,6 +227,8 @@ static int parse(int argc, char **argv, struct settings *settings)
             failed = number("acceleration", 0.1, 20, &settings->acceleration);
         else if (option == 'd')
             failed = number("leash", 0.01, 1, &settings->leash);
+        else if (option == 'r')
+            failed = number("rate", 20, 1000, &settings->rate);
         else
             return option == 'h' ? 1 : -1;
     }
@@ -234,7 +238,7 @@ static int parse(int argc, char **argv, struct settings *settings)
 int main(int argc, char **argv)
 {
     static const char here[] = "udpm://239.255.76.67:7667?ttl=0";
-    struct settings settings = {here, here, 0.5, 4, 0.15};
+    struct settings settings = {here, here, 0.8, 4, 0.15, 200};
     struct driver driver = {.seq = 0};
     struct sigaction action = {.sa_handler = on_signal};
     int parsed = parse(argc, argv, &settings), failed;
@@ -245,7 +249,7 @@ int main(int argc, char **argv)
     }
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    driver.motion = make_motion(settings.share, settings.acceleration, settings.leash);
+    driver.motion = make_motion(&settings);
     if (!driver.motion || open_buses(&driver, settings.arm_url, settings.bus_url))
         return EXIT_FAILURE;
     failed = serve(&driver);

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double longest_step = 0.02; /* s; a motion is not caught up with after a longer one */
-
 struct joint {
     double lowest, highest, fastest, acceleration; /* rad, rad/s, rad/s^2 */
     double wanted;                                 /* commanded, rad/s */
@@ -14,7 +12,7 @@ struct joint {
 
 struct motion {
     int joints;
-    double leash; /* rad */
+    double leash, period; /* rad, s */
     bool begun;
     int64_t robot; /* of the newest reading, the robot's clock, us */
     int64_t commanded,
@@ -40,16 +38,19 @@ static bool is_sensible(const struct joint *joint)
 }
 
 struct motion *motion_create(int joints, const double *lowest, const double *highest,
-                             const double *fastest, const double *acceleration, double leash)
+                             const double *fastest, const double *acceleration, double leash,
+                             double period)
 {
     struct motion *motion = NULL;
 
-    if (joints >= 1 && joints <= MOTION_JOINTS && leash > 0 && isfinite(leash))
+    if (joints >= 1 && joints <= MOTION_JOINTS && leash > 0 && isfinite(leash) && period > 0 &&
+        isfinite(period))
         motion = calloc(1, sizeof *motion);
     if (!motion)
         return NULL;
     motion->joints = joints;
     motion->leash = leash;
+    motion->period = period;
     for (int i = 0; i < joints; i++) {
         motion->joint[i] = (struct joint){.lowest = lowest[i],
                                           .highest = highest[i],
@@ -123,12 +124,14 @@ static bool move(struct joint *joint, double wanted, double measured, double lea
 }
 
 bool motion_step(struct motion *motion, const double *measured, const double *set_point,
-                 int64_t robot, int64_t now, double *position, double *velocity)
+                 const double *set_velocity, int64_t robot, int64_t now, double *position,
+                 double *velocity)
 {
     int64_t passed = robot - motion->robot;
 
     if (!are_finite(motion->joints, measured) ||
-        (set_point && !are_finite(motion->joints, set_point)))
+        (set_point && !are_finite(motion->joints, set_point)) ||
+        (set_velocity && !are_finite(motion->joints, set_velocity)))
         return false;
     if (!motion->begun || passed < 0 || passed > MOTION_GAP_US) {
         begin(motion, measured);
@@ -140,8 +143,10 @@ bool motion_step(struct motion *motion, const double *measured, const double *se
         struct joint *joint = &motion->joint[i];
         if (set_point)
             joint->position = set_point[i];
+        if (set_velocity)
+            joint->velocity = set_velocity[i];
         if (move(joint, is_fresh(motion, robot, now) ? joint->wanted : 0, measured[i],
-                 motion->leash, fmin((double)passed * 1e-6, longest_step)))
+                 motion->leash, fmin((double)passed * 1e-6, motion->period)))
             motion->leashed = i + 1;
         position[i] = joint->position;
         velocity[i] = joint->velocity;

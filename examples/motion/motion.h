@@ -23,9 +23,12 @@ struct motion;
 
 /* For so many joints, each with its range (rad), its fastest velocity (rad/s) and its acceleration
  * (rad/s^2), which are copied. `leash` (rad): how far the set-point may be from the arm, for each.
+ * `period` (s): of the readings; when some are lost, what was missed is not caught up with, since
+ * the drives would see a leap.
  *   returns NULL when a number is not finite, not positive where it must be, or memory is short */
 struct motion *motion_create(int joints, const double *lowest, const double *highest,
-                             const double *fastest, const double *acceleration, double leash);
+                             const double *fastest, const double *acceleration, double leash,
+                             double period);
 void motion_destroy(struct motion *motion);
 
 /* A command of `n` velocities (rad/s) has come at `now`, our clock, us. Returns false when it is
@@ -36,12 +39,13 @@ bool motion_command(struct motion *motion, int n, const double *velocity, int64_
  * is obeyed while it is fresh by both: a robot whose clock runs ahead of ours (a simulator, states
  * that were held up) has no time to wait for ours. When the robot's clock goes back, or there was a
  * gap, the set-point begins anew where the arm is, at rest.
- *   set_point: where the drives themselves say that their set-point is, rad; NULL when they are
- *     given positions and it is what was returned last
+ *   set_point, set_velocity: the set-point as drives that are given velocities have it by now, rad
+ *     and rad/s; NULL when they are given positions, and have what was returned last
  *   position, velocity: become the next set-point, rad and rad/s
  *   returns false when a reading is not finite; nothing may then be sent */
 bool motion_step(struct motion *motion, const double *measured, const double *set_point,
-                 int64_t robot, int64_t now, double *position, double *velocity);
+                 const double *set_velocity, int64_t robot, int64_t now, double *position,
+                 double *velocity);
 
 /* The joint, from 1, whose set-point the leash holds back by now; 0 = none. */
 int motion_leashed(const struct motion *motion);

@@ -5,6 +5,7 @@ import math
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -82,7 +83,12 @@ class IiwaDriver(unittest.TestCase):
         self.addCleanup(moving.join)
         self.addCleanup(enough.set)
         self.processes.start("reachd", REACHD)
-        status = Reach(timeout=10).babble(10)
+        robot = Reach(timeout=10)
+        for _ in range(100):
+            if robot.status.state == robot.status.IDLE:
+                break
+            time.sleep(0.1)
+        status = robot.babble(10)
         self.assertEqual((status.progress, status.samples, status.bad_inputs), (10, 10, 0))
         self.processes.check()
 

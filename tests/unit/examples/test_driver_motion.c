@@ -9,7 +9,7 @@ enum { JOINTS = 2 };
 
 static const double lowest[] = {-1, -2}, highest[] = {1, 2}, fastest[] = {1, 2},
                     acceleration[] = {4, 8};
-static const double leash = 0.2;
+static const double leash = 0.2, period = 0.005;
 
 /* An arm that follows its set-point with a lag, or is held. */
 struct arm {
@@ -24,28 +24,28 @@ static struct arm begin(double q0, double q1)
 {
     struct arm arm = {.q = {q0, q1}, .now = 1000000};
 
-    arm.motion = motion_create(JOINTS, lowest, highest, fastest, acceleration, leash);
+    arm.motion = motion_create(JOINTS, lowest, highest, fastest, acceleration, leash, period);
     ck_assert_ptr_nonnull(arm.motion);
     return arm;
 }
 
-static void step(struct arm *arm, int64_t period)
+static void step(struct arm *arm, int64_t passed)
 {
-    arm->now += period;
-    ck_assert(
-        motion_step(arm->motion, arm->q, NULL, arm->now, arm->now, arm->set_point, arm->velocity));
+    arm->now += passed;
+    ck_assert(motion_step(arm->motion, arm->q, NULL, NULL, arm->now, arm->now, arm->set_point,
+                          arm->velocity));
     for (int i = 0; i < JOINTS && !arm->held; i++)
         arm->q[i] += (arm->set_point[i] - arm->q[i]) *
-                     (arm->lag > 0 ? 1 - exp(-(double)period * 1e-6 / arm->lag) : 1);
+                     (arm->lag > 0 ? 1 - exp(-(double)passed * 1e-6 / arm->lag) : 1);
 }
 
 /* So many periods, in which a command comes every 20 ms. */
-static void run(struct arm *arm, int periods, int64_t period, const double *command)
+static void run(struct arm *arm, int periods, int64_t each, const double *command)
 {
     for (int i = 0; i < periods; i++) {
-        if (command && (int64_t)i * period % 20000 < period)
+        if (command && (int64_t)i * each % 20000 < each)
             ck_assert(motion_command(arm->motion, JOINTS, command, arm->now));
-        step(arm, period);
+        step(arm, each);
     }
 }
 
@@ -140,8 +140,8 @@ START_TEST(a_stale_command_is_none_by_either_clock)
     for (int i = 0; i < 300; i++) {
         if (i == 0)
             ck_assert(motion_command(arm.motion, JOINTS, command, arm.now));
-        ck_assert(motion_step(arm.motion, arm.q, NULL, arm.now + (int64_t)i * 1000, arm.now + i,
-                              position, velocity));
+        ck_assert(motion_step(arm.motion, arm.q, NULL, NULL, arm.now + (int64_t)i * 1000,
+                              arm.now + i, position, velocity));
         if (i == 90)
             ck_assert_double_gt(velocity[0], 0.3);
     }
@@ -159,8 +159,8 @@ START_TEST(what_is_no_command_changes_nothing)
     ck_assert(!motion_command(arm.motion, 1, (double[]){0.1}, arm.now));
     run(&arm, 50, 1000, NULL);
     ck_assert_double_eq(arm.set_point[0], 0);
-    ck_assert(!motion_step(arm.motion, (double[]){NAN, 0}, NULL, arm.now, arm.now, arm.set_point,
-                           arm.velocity));
+    ck_assert(!motion_step(arm.motion, (double[]){NAN, 0}, NULL, NULL, arm.now, arm.now,
+                           arm.set_point, arm.velocity));
     motion_destroy(arm.motion);
 }
 END_TEST
@@ -182,18 +182,37 @@ START_TEST(after_a_gap_it_begins_where_the_arm_is)
 }
 END_TEST
 
+/* Readings were lost: the drives are not sent after what they missed. */
+START_TEST(lost_readings_are_no_leap)
+{
+    struct arm arm = begin(0, 0);
+    double before;
+
+    run(&arm, 400, 1000, (double[]){1, 0});
+    before = arm.set_point[0];
+    step(&arm, 60000);
+    ck_assert_double_le(arm.set_point[0] - before, 1 * period + 1e-9);
+    ck_assert_double_gt(arm.set_point[0], before);
+    motion_destroy(arm.motion);
+}
+END_TEST
+
 /* Drives that are given velocities integrate by themselves: what they say counts. */
 START_TEST(the_drives_own_set_point_counts)
 {
-    struct motion *motion = motion_create(JOINTS, lowest, highest, fastest, acceleration, leash);
-    double q[JOINTS] = {0.9, 0}, position[JOINTS], velocity[JOINTS];
+    struct motion *motion =
+        motion_create(JOINTS, lowest, highest, fastest, acceleration, leash, period);
+    double q[JOINTS] = {0.9, 0}, dq[JOINTS] = {0}, position[JOINTS], velocity[JOINTS];
     int64_t now = 1000000;
 
     for (int i = 0; i < 5000; i++, now += 1000) {
         ck_assert(motion_command(motion, JOINTS, (double[]){1, 0}, now));
-        ck_assert(motion_step(motion, q, q, now, now, position, velocity));
-        for (int j = 0; j < JOINTS; j++)
-            q[j] += 1.1 * velocity[j] * 1e-3; /* ten per cent more than they are told */
+        ck_assert(motion_step(motion, q, q, dq, now, now, position, velocity));
+        ck_assert_double_le(fabs(velocity[0] - dq[0]), acceleration[0] * 1e-3 + 1e-9);
+        for (int j = 0; j < JOINTS; j++) {
+            dq[j] = velocity[j];
+            q[j] += 1.1 * dq[j] * 1e-3; /* ten per cent more than they say */
+        }
         ck_assert_double_le(q[0], highest[0] + 5e-3);
     }
     ck_assert_double_ge(q[0], highest[0] - 1e-2);
@@ -205,13 +224,14 @@ START_TEST(limits_that_are_none_are_refused)
 {
     const double nan2[] = {NAN, 1}, zero[] = {0, 1};
 
-    ck_assert_ptr_null(motion_create(0, lowest, highest, fastest, acceleration, leash));
+    ck_assert_ptr_null(motion_create(0, lowest, highest, fastest, acceleration, leash, period));
     ck_assert_ptr_null(
-        motion_create(MOTION_JOINTS + 1, lowest, highest, fastest, acceleration, leash));
-    ck_assert_ptr_null(motion_create(JOINTS, highest, lowest, fastest, acceleration, leash));
-    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, zero, acceleration, leash));
-    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, fastest, nan2, leash));
-    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, fastest, acceleration, 0));
+        motion_create(MOTION_JOINTS + 1, lowest, highest, fastest, acceleration, leash, period));
+    ck_assert_ptr_null(
+        motion_create(JOINTS, highest, lowest, fastest, acceleration, leash, period));
+    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, zero, acceleration, leash, period));
+    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, fastest, nan2, leash, period));
+    ck_assert_ptr_null(motion_create(JOINTS, lowest, highest, fastest, acceleration, 0, period));
 }
 END_TEST
 
@@ -225,6 +245,7 @@ int main(void)
         a_stale_command_is_none_by_either_clock,
         what_is_no_command_changes_nothing,
         after_a_gap_it_begins_where_the_arm_is,
+        lost_readings_are_no_leap,
         the_drives_own_set_point_counts,
         limits_that_are_none_are_refused,
     };
