@@ -38,7 +38,7 @@ struct driver {
     int64_t seq;      /* of states */
     int64_t statuses; /* that came */
     int64_t refused;  /* statuses that are none: another number of joints, or not finite */
-    int leashed;      /* the joint that was said to be held, from 1; 0 = none */
+    int64_t said;     /* when it was said that a joint is held, us; 0 = never */
 };
 
 static const char usage[] =
@@ -90,15 +90,17 @@ static void tell(struct driver *driver, const drake_lcmt_iiwa_status *status)
     reach_robot_state_t_publish(driver->bus, "ROBOT_STATE", &state);
 }
 
+/* Once a second. */
 static void say_leash(struct driver *driver)
 {
     int joint = motion_leashed(driver->motion);
+    int64_t now = clock_us(CLOCK_MONOTONIC);
 
-    if (joint != 0 && joint != driver->leashed)
-        fprintf(stderr,
-                "iiwa_driver: joint %d does not follow; is it held, or --leash too short?\n",
-                joint);
-    driver->leashed = joint;
+    if (joint == 0 || (driver->said > 0 && now - driver->said < 1000000))
+        return;
+    driver->said = now;
+    fprintf(stderr, "iiwa_driver: joint %d does not follow; is it held, or --leash too short?\n",
+            joint);
 }
 
 static void on_status(const lcm_recv_buf_t *message, const char *channel,

@@ -8,6 +8,7 @@ struct joint {
     double lowest, highest, fastest, acceleration; /* rad, rad/s, rad/s^2 */
     double wanted;                                 /* commanded, rad/s */
     double position, velocity;                     /* the set-point, rad and rad/s */
+    double measured, moves;                        /* the arm, rad and rad/s */
 };
 
 struct motion {
@@ -85,6 +86,7 @@ static void begin(struct motion *motion, const double *measured)
     for (int i = 0; i < motion->joints; i++) {
         motion->joint[i].position = measured[i];
         motion->joint[i].velocity = 0;
+        motion->joint[i].moves = 0;
     }
     motion->begun = true;
     motion->commanded = 0;
@@ -107,20 +109,37 @@ static double clamp(double value, double least, double most)
     return fmax(least, fmin(most, value));
 }
 
-/* One joint for dt. Returns whether it is the leash that holds it back. */
-static bool move(struct joint *joint, double wanted, double measured, double leash, double dt)
+/* The velocity that leash and arm leave of a wanted one: no faster than the arm but for what can be
+ * braked before the set-point is farther away. An arm that follows is not held back, and one that
+ * sags or is pushed does not take the set-point along. */
+static double on_leash(const struct joint *joint, double wanted, double leash, double dt)
 {
-    double above = fastest_within(measured + leash - joint->position, joint->acceleration, dt);
-    double below = fastest_within(joint->position - measured + leash, joint->acceleration, dt);
+    double ahead = joint->position - joint->measured;
+    double up = joint->moves + fastest_within(leash - ahead, joint->acceleration, dt);
+    double down = joint->moves - fastest_within(leash + ahead, joint->acceleration, dt);
+
+    return clamp(wanted, fmin(0, down), fmax(0, up));
+}
+
+/* One joint for dt. Returns whether it is the leash that holds it back. */
+static bool move(struct joint *joint, double wanted, double leash, double dt)
+{
     double up = fastest_within(joint->highest - joint->position, joint->acceleration, dt);
     double down = fastest_within(joint->position - joint->lowest, joint->acceleration, dt);
     double most = joint->acceleration * dt;
     double free = clamp(wanted, -fmin(joint->fastest, down), fmin(joint->fastest, up));
-    double target = clamp(free, -below, above);
+    double target = on_leash(joint, free, leash, dt);
 
     joint->velocity += clamp(target - joint->velocity, -most, most);
     joint->position += joint->velocity * dt;
-    return fabs(free - target) > 0.5 * fabs(free);
+    return target != free && fabs(joint->position - joint->measured) > 0.9 * leash;
+}
+
+static void measure(struct joint *joint, double measured, double passed)
+{
+    if (passed > 0)
+        joint->moves = (measured - joint->measured) / passed;
+    joint->measured = measured;
 }
 
 bool motion_step(struct motion *motion, const double *measured, const double *set_point,
@@ -145,8 +164,9 @@ bool motion_step(struct motion *motion, const double *measured, const double *se
             joint->position = set_point[i];
         if (set_velocity)
             joint->velocity = set_velocity[i];
-        if (move(joint, is_fresh(motion, robot, now) ? joint->wanted : 0, measured[i],
-                 motion->leash, fmin((double)passed * 1e-6, motion->period)))
+        measure(joint, measured[i], (double)passed * 1e-6);
+        if (move(joint, is_fresh(motion, robot, now) ? joint->wanted : 0, motion->leash,
+                 fmin((double)passed * 1e-6, motion->period)))
             motion->leashed = i + 1;
         position[i] = joint->position;
         velocity[i] = joint->velocity;

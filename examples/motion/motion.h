@@ -4,7 +4,8 @@
  * A driver is the last before the motors, so that this trusts nobody: what is not finite or of
  * another number of joints is no command; what is too fast, too old, or would leave a joint's range
  * does not get through. All of it is one rule a joint: move as commanded, as fast as one can still
- * brake before the range ends, and before the set-point is farther from the arm than the leash.
+ * brake before the range ends, and before the set-point is farther from the arm than the leash. An
+ * arm that is stopped at speed is overrun by no more than it takes to brake from that speed.
  *
  * Time is an argument. Allocates in motion_create alone. For one thread. */
 #ifndef MOTION_H

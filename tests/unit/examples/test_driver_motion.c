@@ -127,6 +127,40 @@ START_TEST(the_set_point_stays_on_the_leash)
 }
 END_TEST
 
+/* A lag that is no fault, at a speed from which it takes more than the leash to brake: it holds
+ * back nothing. */
+START_TEST(an_arm_that_follows_is_not_held_back)
+{
+    struct arm arm = begin(0, -1.9);
+
+    arm.lag = 0.06;
+    run(&arm, 600, 1000, (double[]){0, 2});
+    ck_assert_double_eq_tol(arm.velocity[1], 2, 1e-9);
+    ck_assert_int_eq(motion_leashed(arm.motion), 0);
+    arm.held = true; /* at once */
+    run(&arm, 600, 1000, (double[]){0, 2});
+    ck_assert_double_eq_tol(arm.velocity[1], 0, 1e-9);
+    ck_assert_double_le(arm.set_point[1] - arm.q[1], leash + 2 * 2 / (2 * acceleration[1]));
+    motion_destroy(arm.motion);
+}
+END_TEST
+
+/* It sags, or somebody pushes it: no way to command. */
+START_TEST(an_arm_that_is_pushed_does_not_take_the_set_point_along)
+{
+    struct arm arm = begin(0, 0);
+
+    arm.held = true;
+    step(&arm, 1000);
+    for (int i = 0; i < 1000; i++) {
+        arm.q[0] -= 0.5e-3;
+        step(&arm, 1000);
+    }
+    ck_assert_double_eq(arm.set_point[0], 0);
+    motion_destroy(arm.motion);
+}
+END_TEST
+
 START_TEST(a_stale_command_is_none_by_either_clock)
 {
     const double command[] = {0.5, 0.5};
@@ -242,6 +276,8 @@ int main(void)
         whatever_comes_velocity_acceleration_and_range_hold,
         a_command_is_obeyed_to_the_ends_of_the_range,
         the_set_point_stays_on_the_leash,
+        an_arm_that_follows_is_not_held_back,
+        an_arm_that_is_pushed_does_not_take_the_set_point_along,
         a_stale_command_is_none_by_either_clock,
         what_is_no_command_changes_nothing,
         after_a_gap_it_begins_where_the_arm_is,
