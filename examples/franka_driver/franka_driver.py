@@ -59,36 +59,27 @@ class Bus:
         self._motion = motion
         self._state = types.robot_state_t()
         self._state.n_joints = 7
-        self._state.lockstep = int(options.lockstep)
         self._effector = types.end_effector_t() if options.end_effector else None
-        self._answered = 0
-        self.now = 0  # us
 
     def _on_command(self, _, data) -> None:
         command = types.robot_command_t.decode(data)
         velocity = command.velocity[: max(0, command.n_joints)]
-        if len(velocity) == command.n_joints and self._motion.command(velocity, self.now):
-            self._answered = command.state_seq
+        if len(velocity) == command.n_joints:
+            self._motion.command(velocity, monotonic_us())
 
     def take_commands(self) -> None:
         while self._lcm.handle_timeout(0):
             pass
 
-    def await_answer(self, stopping) -> None:
-        """Lockstep: the command for the newest state. What is lost is sent again."""
-        while self._answered != self._state.seq and not stopping():
-            if not self._lcm.handle_timeout(500):
-                self._lcm.publish("ROBOT_STATE", self._state.encode())
-
     def tell(self, robot: franka.RobotState) -> None:
-        """By our clock; in lockstep by the robot's, which then is the only one."""
+        """By our clock, which the tracking system has, too."""
         state = self._state
-        state.utime = robot_us(robot) + 1 if state.lockstep else time.time_ns() // 1000
+        state.utime = time.time_ns() // 1000
         state.seq += 1
         state.position[:7] = robot.q
         state.velocity[:7] = robot.dq
         if self._effector:  # before the state: it is of its instant
-            self._effector.utime = state.effector_due = state.utime
+            self._effector.utime = state.utime
             self._effector.seq += 1
             self._effector.position = list(robot.O_T_EE[12:15])
             self._lcm.publish("END_EFFECTOR", self._effector.encode())
@@ -109,8 +100,7 @@ class Driver:
     def __init__(self, options: argparse.Namespace):
         self._motion = make_motion(options)
         self._bus = Bus(options, self._motion)
-        self._lockstep = options.lockstep
-        self._every = round(1 / PERIOD / (50 if options.lockstep else options.rate))  # cycles
+        self._every = round(1 / PERIOD / options.rate)  # cycles
         self._said = 0
         self.stopping = False
 
@@ -119,11 +109,9 @@ class Driver:
         cycle, rests = 0, False
         while not rests:
             robot, _ = control.readOnce()
-            now = self._bus.now = robot_us(robot) if self._lockstep else monotonic_us()
+            now = monotonic_us()
             if cycle % self._every == 0:
                 self._bus.tell(robot)
-                if self._lockstep:
-                    self._bus.await_answer(lambda: self.stopping)
             if not self.stopping:  # else the newest command grows stale, and the arm rests
                 self._bus.take_commands()
             velocity = self._motion.step(robot.q, robot.q_d, robot.dq_d, robot_us(robot), now)
@@ -166,9 +154,6 @@ def parse() -> argparse.Namespace:
                         help="of states to reachd (default %(default)s)")  # fmt: skip
     parser.add_argument("--end-effector", action="store_true",
                         help="send as END_EFFECTOR where the arm's own model has it")  # fmt: skip
-    parser.add_argument("--lockstep", action="store_true",
-                        help="send 50 states a second of the robot's time and wait for reachd's "
-                        "answers: for a simulator that is slower than real time")  # fmt: skip
     parser.add_argument("--no-rt", action="store_true", help="without a real-time kernel")
     parser.add_argument("--motion", type=Path, metavar="FILE",
                         default=ROOT / "build/examples/libreach_motion.so",
