@@ -61,7 +61,8 @@ class FrankaDriver(unittest.TestCase):
         self.run_for(10, until=lambda: len(self.states) > 20)
         start = list(self.states[0].position[:7])
         self.assertEqual(list(self.states[-1].position[:7]), start)
-        self.run_for(1.0, command=lambda: [0.3, 0, 0, 0.3, 0, 0, 0])
+        far = lambda: self.states[-1].position[0] - start[0] > 0.15  # noqa: E731
+        self.run_for(10, command=lambda: [0.3, 0, 0, 0.3, 0, 0, 0], until=far)
         moved = self.states[-1].position
         self.assertGreater(moved[0] - start[0], 0.1)
         self.assertGreater(moved[3] - start[3], 0.1)
@@ -81,9 +82,11 @@ class FrankaDriver(unittest.TestCase):
         numbers = random.Random(1)
         absurd = lambda: [numbers.choice((-50, 0.1, 50)) for _ in range(7)]  # noqa: E731
         self.run_for(2, command=absurd)
-        self.run_for(3, command=lambda: [50] * 7)
+        at_the_end = lambda: self.states[-1].position[3] > -0.3  # noqa: E731
+        self.run_for(20, command=lambda: [50] * 7, until=at_the_end)
+        self.run_for(0.5, command=lambda: [50] * 7)
         self.assertIsNone(driver.poll(), driver.poll() is not None and driver.communicate())
-        self.assertGreater(self.states[-1].position[3], -0.8)
+        self.assertTrue(at_the_end())
         self.assertEqual(self.end(driver), (0, ""))
 
     def test_what_goes_wrong_is_said(self):
