@@ -68,7 +68,7 @@ class PretendIiwa:
             "IIWA_STATUS",
             struct.pack(">Qqi49d", STATUS_FINGERPRINT, self._utime, JOINTS, *values),
         )
-        if self.effector:
+        if self.effector and self.statuses % max(1, round(0.02 / self.period)) == 0:
             self._seq += 1
             measured = types.end_effector_t()
             measured.utime, measured.seq = time.time_ns() // 1000, self._seq
