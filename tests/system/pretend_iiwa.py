@@ -26,7 +26,6 @@ class PretendIiwa:
         self._lcm.subscribe("ROBOT_STATE", self._on_state).set_queue_capacity(1000)
         self.q = list(start)
         self.period = 1 / rate
-        self.clock_rate = 1.0  # of its clock against ours
         self._commanded = list(start)
         self._velocity = [0.0] * JOINTS
         self._utime = 5_000_000
@@ -81,7 +80,7 @@ class PretendIiwa:
             step = share * (self._commanded[i] - self.q[i])
             self.q[i] += step
             self._velocity[i] = step / self.period
-        self._utime += round(self.clock_rate * self.period * 1e6)
+        self._utime += round(self.period * 1e6)
 
     def _on_command(self, _, data) -> None:
         fingerprint, _, n, *position, torques = struct.unpack(">Qqi7di", data)
