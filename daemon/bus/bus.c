@@ -1,6 +1,7 @@
 #include "daemon/bus/bus.h"
 
 #include "common/base/checksum.h"
+#include "common/base/newest.h"
 #include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "common/bus/receiver.h"
@@ -30,9 +31,12 @@ static const int config_patience_ms = 100;
 struct daemon_bus {
     lcm_t *lcm;
     struct mailbox *states, *observations, *requests, *outgoing, *reports, *bodies;
-    sem_t arrived;       /* posted for every message that the loop may wait for */
-    sem_t to_send;       /* posted for every outgoing message */
-    _Atomic bool ending; /* the sending thread */
+    struct newest *newest_state; /* of those that found no room: never is the newest one lost */
+    int64_t states_come;         /* the receiving thread's */
+    int64_t state_taken;         /* the loop thread's: number of the newest taken */
+    sem_t arrived;               /* posted for every message that the loop may wait for */
+    sem_t to_send;               /* posted for every outgoing message */
+    _Atomic bool ending;         /* the sending thread */
     _Atomic bool emergency;
     _Atomic int64_t malformed[REFUSALS_CHANNELS];
     enum space_kind space;
@@ -50,6 +54,7 @@ size_t daemon_bus_memory(void)
 {
     return arena_footprint(sizeof(struct daemon_bus)) +
            mailbox_memory(sizeof(struct received_state), STATES) +
+           newest_memory(sizeof(struct received_state)) +
            mailbox_memory(sizeof(struct observation), OBSERVATIONS) +
            mailbox_memory(sizeof(struct received_request), REQUESTS) +
            mailbox_memory(sizeof(struct outgoing), OUTGOING) +
@@ -68,6 +73,18 @@ static void deliver(struct daemon_bus *bus, struct mailbox *mailbox, const void 
         sem_post(&bus->arrived);
 }
 
+/* A robot may send more states in a period than there is room for; the newest counts. */
+static void deliver_state(struct daemon_bus *bus, struct received_state *received)
+{
+    received->number = ++bus->states_come;
+    if (!mailbox_full(bus->states)) {
+        deliver(bus, bus->states, received);
+        return;
+    }
+    newest_put(bus->newest_state, received);
+    sem_post(&bus->arrived);
+}
+
 static void on_state(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct daemon_bus *bus = user;
@@ -76,7 +93,7 @@ static void on_state(const lcm_recv_buf_t *message, const char *channel, void *u
     (void)channel;
     received.checksum = checksum_crc32(message->data, message->data_size);
     if (incoming_state(message->data, message->data_size, &received.state))
-        deliver(bus, bus->states, &received);
+        deliver_state(bus, &received);
     else
         refuse(bus, REACH_STATUS_T_CHANNEL_STATE);
 }
@@ -124,13 +141,14 @@ static void on_body(const lcm_recv_buf_t *message, const char *channel, void *us
 static bool create_mailboxes(struct daemon_bus *bus, struct arena *arena)
 {
     bus->states = mailbox_create(arena, sizeof(struct received_state), STATES);
+    bus->newest_state = newest_create(arena, sizeof(struct received_state));
     bus->observations = mailbox_create(arena, sizeof(struct observation), OBSERVATIONS);
     bus->requests = mailbox_create(arena, sizeof(struct received_request), REQUESTS);
     bus->outgoing = mailbox_create(arena, sizeof(struct outgoing), OUTGOING);
     bus->reports = mailbox_create(arena, sizeof(reach_status_t), REPORTS);
     bus->bodies = mailbox_create(arena, sizeof(struct received_body), BODIES);
-    return bus->bodies && bus->states && bus->observations && bus->requests && bus->outgoing &&
-           bus->reports;
+    return bus->bodies && bus->states && bus->newest_state && bus->observations && bus->requests &&
+           bus->outgoing && bus->reports;
 }
 
 struct daemon_bus *daemon_bus_create(lcm_t *lcm, enum space_kind space, struct arena *arena,
@@ -203,9 +221,15 @@ void daemon_bus_stop(struct daemon_bus *bus)
     bus_receiver_stop(&bus->receiver);
 }
 
-struct mailbox *daemon_bus_states(struct daemon_bus *bus)
+bool daemon_bus_take_state(struct daemon_bus *bus, struct received_state *received)
 {
-    return bus->states;
+    /* What found no room is in order with what did: later ones may have found room again. */
+    while (mailbox_take(bus->states, received) || newest_take(bus->newest_state, received))
+        if (received->number > bus->state_taken) {
+            bus->state_taken = received->number;
+            return true;
+        }
+    return false;
 }
 
 struct mailbox *daemon_bus_observations(struct daemon_bus *bus)
@@ -299,7 +323,6 @@ void daemon_bus_refused(const struct daemon_bus *bus,
                         int64_t count[REFUSALS_CHANNELS][REFUSALS_REASONS])
 {
     const struct mailbox *const full[REFUSALS_CHANNELS] = {
-        [REACH_STATUS_T_CHANNEL_STATE] = bus->states,
         [REACH_STATUS_T_CHANNEL_SENSE] = bus->observations,
         [REACH_STATUS_T_CHANNEL_REQUEST] = bus->requests,
         [REACH_STATUS_T_CHANNEL_OUT] = bus->outgoing,

@@ -22,11 +22,13 @@
 
 struct daemon_bus;
 
-/* A robot state with the monotonic time at which it came, us. */
+/* A robot state with the monotonic time at which it came, us, and its number among all that came.
+ */
 struct received_state {
     reach_robot_state_t state;
     uint32_t checksum;
     int64_t received;
+    int64_t number;
 };
 
 struct received_request {
@@ -48,8 +50,12 @@ int daemon_bus_start(struct daemon_bus *bus, bool real_time, char *error, size_t
 /* Sends what still waits, then ends and joins the threads. */
 void daemon_bus_stop(struct daemon_bus *bus);
 
-/* What has come, for the loop thread: states oldest first, observations and requests likewise. */
-struct mailbox *daemon_bus_states(struct daemon_bus *bus);       /* struct received_state */
+/* For the loop thread, wait-free: the oldest state that it has not taken, and at last the newest
+ * one. Between them some are passed over when more came than there is room for. Returns false when
+ * there is none. */
+bool daemon_bus_take_state(struct daemon_bus *bus, struct received_state *received);
+
+/* What else has come, for the loop thread, oldest first. */
 struct mailbox *daemon_bus_observations(struct daemon_bus *bus); /* struct observation */
 struct mailbox *daemon_bus_requests(struct daemon_bus *bus);     /* struct received_request */
 

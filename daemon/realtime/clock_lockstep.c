@@ -104,7 +104,7 @@ void clock_run_lockstep(struct step *step)
 
     due_observations_init(&waiting);
     while (!step_ending(step)) {
-        if (!mailbox_take(daemon_bus_states(step->bus), &step->received)) {
+        if (!daemon_bus_take_state(step->bus, &step->received)) {
             wait_for_message(step, LOOP_WAITS_FOR_STATE);
             continue;
         }

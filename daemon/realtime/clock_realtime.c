@@ -21,7 +21,7 @@ static void take_newest_state(struct step *step)
 
     inputs->has_state = false;
     inputs->crossed = 0;
-    while (mailbox_take(daemon_bus_states(step->bus), &received)) {
+    while (daemon_bus_take_state(step->bus, &received)) {
         bool good = inputs_state_ok(step->config, &received.state, &fault);
         if (inputs->has_state && !(any_good && good))
             refusals_add(&step->refusals, REACH_STATUS_T_CHANNEL_STATE, REACH_STATUS_T_VALUE);

@@ -4,6 +4,7 @@ import argparse
 import re
 from pathlib import Path
 
+import eyes
 import mujoco
 import numpy as np
 from reach.new_robot import choices
@@ -16,7 +17,8 @@ STEP = 0.001  # s
 class Arm:
     """`joints` are driven; all others are held where the model has zero."""
 
-    def __init__(self, spec: mujoco.MjSpec, joints: list[str], tip: str, rod: float):
+    def __init__(self, spec: mujoco.MjSpec, joints: list[str], tip: str, rod: float,
+                 eye_names: list[str]):  # fmt: skip
         spec.option.timestep = STEP
         spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
@@ -27,6 +29,8 @@ class Arm:
         if rod > 0:
             body.add_geom(type=mujoco.mjtGeom.mjGEOM_CAPSULE, size=[0.005, 0, 0],
                           fromto=[0, 0, 0, 0, 0, rod], mass=0.1 * rod)  # fmt: skip
+        if eye_names:
+            eyes.put_in(spec, eye_names, tip, rod)
         _leave_out(spec, joints)
         self.model = spec.compile()
         self.data = mujoco.MjData(self.model)
@@ -82,6 +86,7 @@ def _leave_out(spec: mujoco.MjSpec, joints: list[str]) -> None:
 def load(options: argparse.Namespace) -> Arm:
     """The arm that the options name, at its start. ValueError, KeyError: it cannot be made."""
     joints, tip, start = options.joints, options.tip, None
+    head = options.head.split(",") if options.head else []
     if options.model.suffix == ".urdf":
         try:
             known = UrdfArm(Urdf(options.model), tip, joints.split(",") if joints else None)
@@ -90,19 +95,20 @@ def load(options: argparse.Namespace) -> Arm:
         joints, tip = [joint.name for joint in known.joints], known.tip
         start = [choices.range_of(joint).middle for joint in known.joints]
         slides = np.array([joint.slides for joint in known.joints])
-        start = np.where(slides, start, np.radians(start))
+        start = [*np.where(slides, start, np.radians(start)), *[0.0] * len(head)]
         spec = mujoco.MjSpec.from_string(_bare(options.model))
         spec.compiler.fusestatic = False
     else:
         if not joints or not tip:
             raise ValueError("of an MJCF --joints and --tip are wanted")
         joints, spec = joints.split(","), mujoco.MjSpec.from_file(str(options.model))
-    arm = Arm(spec, joints, tip, options.rod)
+    joints = [*joints, *head]
+    arm = Arm(spec, joints, tip, options.rod, options.eyes.split(",") if options.eyes else [])
     if options.start:
         given = np.array([float(word) for word in options.start.split(",")])
         kinds = [arm.model.joint(name).type[0] for name in joints]
         start = np.where(np.array(kinds) == mujoco.mjtJoint.mjJNT_SLIDE, given, np.radians(given))
-    arm.put(arm.ranges.mean(axis=1) if start is None else start)
+    arm.put(arm.ranges.mean(axis=1) if start is None else np.array(start))
     return arm
 
 

@@ -11,10 +11,12 @@ import lcm
 import numpy as np
 from arm import Arm, load
 from drives import Drive, Encoder
+from eyes import Eyes
 from reach.bus import DEFAULT_URL
 from reach.messages import reach
 
 PERIOD = 0.02  # s
+EXPOSE = 2  # periods from one exposure to the next, and until its marker is due
 RESEND, STALE = 0.5, 0.1  # s: an unanswered state is sent again; an old command is not obeyed
 
 
@@ -32,18 +34,28 @@ class Robot:
         self._commands = deque([still] * options.latency)  # under way
         self._effector_noise = options.effector_noise
         self.state, self.effector = reach.robot_state_t(), reach.end_effector_t()
+        self._eyes = Eyes(arm, options.eyes.split(",")) if options.eyes else None
+        self.pairs: deque[tuple[int, bytes]] = deque(maxlen=2)  # exposed: before, and now
 
     def read(self, utime: int, lockstep: bool) -> None:
-        """Fills `state` and `effector`."""
+        """Fills `state`, and `effector` or every other time `pairs`."""
         n = len(self._arm.dofs)
-        self.effector.utime, self.effector.seq = utime, self.effector.seq + 1
-        noise = self._effector_noise * self._rng.standard_normal(3)
-        self.effector.position = (self._arm.tip + noise).tolist()
-        self.state.utime = self.state.effector_due = utime
+        self.state.utime = utime
         self.state.seq += 1
+        if self._eyes is None:
+            self._measure(utime)
+        elif self.state.seq % EXPOSE == 1:
+            self.state.vision_due = self.pairs[-1][0] if self.pairs else 0
+            self.pairs.append((utime, self._eyes.expose(utime)))
         self.state.lockstep, self.state.n_joints = int(lockstep), n
         self.state.position[:n] = self._encoder.read(self._arm.positions).tolist()
         self.state.velocity[:n] = self._arm.velocities.tolist()
+
+    def _measure(self, utime: int) -> None:
+        self.effector.utime, self.effector.seq = utime, self.effector.seq + 1
+        noise = self._effector_noise * self._rng.standard_normal(3)
+        self.effector.position = (self._arm.tip + noise).tolist()
+        self.state.effector_due = utime
 
     def move(self, velocities: np.ndarray) -> None:
         """A period with this command, which arrives as late as the latency says."""
@@ -69,9 +81,13 @@ class Bus:
         if command.n_joints == self._n and np.isfinite(command.velocity[: self._n]).all():
             self._newest, self._heard = command, time.monotonic()
 
-    def say(self, robot: Robot) -> None:
-        """The measurement before the state that it is due with."""
-        self._lcm.publish("END_EFFECTOR", robot.effector.encode())
+    def say(self, robot: Robot, again: bool = False) -> None:
+        """What was measured or seen, before the state; `again` what may be lost."""
+        if robot.effector.seq > 0:
+            self._lcm.publish("END_EFFECTOR", robot.effector.encode())
+        for utime, pair in robot.pairs:
+            if again or utime == robot.state.utime:
+                self._lcm.publish("STEREO_IMAGES", pair)
         self._lcm.publish("ROBOT_STATE", robot.state.encode())
 
     def answer_to(self, robot: Robot) -> np.ndarray:
@@ -80,7 +96,7 @@ class Bus:
         while self._newest is None or self._newest.state_seq != robot.state.seq:
             self._lcm.handle_timeout(100)
             if time.monotonic() - sent > RESEND:
-                self.say(robot)
+                self.say(robot, again=True)
                 sent = time.monotonic()
         return np.array(self._newest.velocity[: self._n])
 
@@ -111,6 +127,9 @@ def parse_arguments(arguments: list[str] | None = None) -> argparse.Namespace:
     add("--joints", help="names, A,B,..., in the order of reachd's configuration; of a URDF the"
         " default is what reach-new-robot takes")  # fmt: skip
     add("--tip", help="body whose place is measured; of a URDF likewise")
+    add("--head", help="names of the head's joints, which follow the arm's")
+    add("--eyes", metavar="LEFT,RIGHT", help="bodies that look along x: instead of measuring"
+        " the tip they see a green ball there, for reach-vision")  # fmt: skip
     add("--start", help="joint angles, deg (m), A,B,...; default: the middle of each range")
     add("--rod", type=float, default=0.0, metavar="M",
         help="a rod of this length along the hand's z axis; its end is measured")  # fmt: skip

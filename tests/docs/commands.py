@@ -9,9 +9,9 @@ import known
 
 # Programs of others that the documentation may use.
 OUTSIDE = """
-apt-get cat cc cd cmake cpack ctest dpkg echo exit export git head install ip jobs journalctl jq
-kill lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat pip pkg-config sleep sysctl
-systemctl systemd-analyze wait for done if fi .venv/bin/rerun
+apt-get cat cc cd chrt cmake cpack ctest dpkg echo exit export git head install ip jobs journalctl
+jq kill lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat pip pkg-config sleep sysctl
+systemctl systemd-analyze wait for while done if fi .venv/bin/rerun
 """.split()  # noqa: SIM905, a list of words
 # Words before a command, with how many words of their own follow each.
 WRAPPERS = {
@@ -24,7 +24,8 @@ WRAPPERS = {
     "env": 0,
     "nsenter": 3,
 }
-PYTHON = (".venv/bin/python", "out/mujoco/bin/python", "python", "python3")
+PYTHON = (".venv/bin/python", "out/drake/bin/python", "out/franka/bin/python",
+          "out/mujoco/bin/python", "python", "python3")  # fmt: skip
 # Of the running shell, not of a program.
 _ASSIGNMENT = re.compile(r"[A-Za-z_]\w*=")
 

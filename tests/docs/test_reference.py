@@ -10,7 +10,7 @@ SOURCE = Path(os.environ["REACH_SOURCE_DIR"])
 BUILD = Path(os.environ["REACH_BUILD_DIR"])
 
 # Built, but for developers: docs name them where they are of use.
-NOT_FOR_USERS = {"hard-pictures", "reach-prime", "reach-window", "robot_driver"}
+NOT_FOR_USERS = {"hard-pictures", "iiwa_driver", "reach-prime", "reach-window", "robot_driver"}
 
 OPTIONS = """\
 arm.gain      of the arm, one of many

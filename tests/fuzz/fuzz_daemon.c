@@ -57,7 +57,7 @@ static void take_arrived(struct daemon_bus *bus, struct tick_inputs *inputs)
     struct received_request asked;
 
     inputs->has_state = false;
-    while (mailbox_take(daemon_bus_states(bus), &received)) {
+    while (daemon_bus_take_state(bus, &received)) {
         inputs->has_state = true;
         inputs->state = received.state;
         inputs->state_age = 0;

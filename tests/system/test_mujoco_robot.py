@@ -22,6 +22,7 @@ from reach.programs import BINARIES
 PYTHON = os.environ.get("REACH_MUJOCO_PYTHON", sys.executable)
 DRIVER = ROOT / "examples/mujoco_robot/mujoco_robot.py"
 HAS_MUJOCO = subprocess.run([PYTHON, "-c", "import mujoco"], capture_output=True).returncode == 0
+HAS_EYES = subprocess.run([PYTHON, "-c", "import OpenGL"], capture_output=True).returncode == 0
 SECONDS = 20  # robot time for a target
 
 
@@ -89,6 +90,26 @@ class MujocoRobot(unittest.TestCase):
 
     def test_a_rod_and_late_commands(self):
         self.assertLess(max(self.errors("--latency", "1", rod=0.2)), 0.01)
+
+    @unittest.skipUnless(HAS_EYES, "there is no OpenGL for Python: pip install pyopengl")
+    def test_two_eyes_on_a_head(self):
+        """The head turns to the ball that they see, and reachd learns of nothing else."""
+        arm = ["--joints", "shoulder_pitch,shoulder_yaw,shoulder_roll,elbow", "--tip", "hand"]
+        head = ["--head", "neck_yaw,neck_pitch", "--eyes", "left_eye,right_eye"]
+        urdf, start = ROOT / "etc/robots/kobian.urdf", "--start=-65,-17.5,0,-65,-25,0"
+        vision, daemon = ROOT / "etc/vision-kobian.yaml", ROOT / "etc/kobian.yaml"
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        with Processes(folder) as processes:
+            processes.start("vision", [BINARIES / "reach-vision", "--config", vision])
+            processes.start("reachd", [BINARIES / "reachd", "--config", daemon, "--lockstep"])
+            processes.start("robot", [PYTHON, DRIVER, urdf, *arm, *head, start])
+            robot = Reach(timeout=60)
+            while robot.status.state != types.status_t.IDLE:
+                processes.check()
+            status = robot.babble(3)
+            processes.check()
+        self.assertEqual((status.progress, status.skipped, status.space), (3, 0, status.VISUAL))
+        self.assertEqual((status.marker_seen, status.bad_inputs), (1, 0))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 finding of the doctor; and in lockstep answered, so that the sender does not wait for ever."""
 
 import json
+import statistics
 import subprocess
 import tempfile
 import time
@@ -60,6 +61,25 @@ class Refusals(unittest.TestCase):
         findings = {f["check"]: f for f in json.loads(doctor.communicate(timeout=30)[0])}
         self.assertEqual(findings["refused messages"]["verdict"], "finding", findings)
         self.assertIn("ROBOT_STATE", findings["refused messages"]["text"])
+
+    def test_states_faster_than_the_loop(self):
+        """4 kHz: the loop takes the newest, and passes over the rest without a complaint."""
+        self.start("--no-rt")
+        self.assertTrue(self.robot.run(10, lambda: self.robot.status), self.said())
+        ages, used = [], set()
+        end = time.monotonic() + 2
+        while time.monotonic() < end:
+            due = time.monotonic() + 0.005
+            for _ in range(20):
+                self.robot._publish_state()
+            while (left := due - time.monotonic()) > 0:
+                self.robot._lcm.handle_timeout(int(left * 1000) + 1)
+                ages.append(self.robot.status.staleness)
+                used.add(self.robot.status.state_seq)
+        self.assertEqual(self.robot.status.bad_inputs, 0, self.said())
+        self.assertGreater(len(used), 50)
+        self.assertGreater(self.robot.status.state_seq, 40 * len(used))
+        self.assertLess(statistics.median(ages), 0.008)  # what comes after 64 states is not lost
 
     def test_a_second_sender(self):
         """It says that the arm is at rest at mid-range, with numbers of its own."""

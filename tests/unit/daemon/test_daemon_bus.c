@@ -1,5 +1,5 @@
-/* The daemon's side of the bus when the clock is set, or a thread cannot be had. In its own network
- * namespace. */
+/* The daemon's side of the bus when the clock is set, a thread cannot be had, or a robot sends more
+ * states than the loop takes. In its own network namespace. */
 #include "common/base/thread.h"
 #include "common/bus/open.h"
 #include "daemon/bus/bus.h"
@@ -107,11 +107,79 @@ START_TEST(a_start_that_fails_leaves_no_thread)
 }
 END_TEST
 
+static void send_states(int64_t first, int64_t last)
+{
+    reach_robot_state_t state = {.n_joints = 6};
+
+    for (state.seq = first; state.seq <= last; state.seq++) {
+        state.utime = 1000000 + 250 * state.seq;
+        ck_assert_int_eq(reach_robot_state_t_publish(lcm, "ROBOT_STATE", &state), 0);
+        if (state.seq % 20 == 0) /* so that the bus loses none */
+            while (lcm_handle_timeout(lcm, 20) > 0)
+                continue;
+    }
+    while (lcm_handle_timeout(lcm, 50) > 0)
+        continue;
+}
+
+/* Takes what there is. Returns how many, in their order. */
+static int take_states(struct daemon_bus *bus, int64_t *newest)
+{
+    struct received_state received;
+    int taken = 0;
+
+    while (daemon_bus_take_state(bus, &received)) {
+        ck_assert_int_gt(received.state.seq, *newest);
+        *newest = received.state.seq;
+        taken++;
+    }
+    return taken;
+}
+
+/* 4 kHz against a loop of 50 Hz, and a loop that misses periods. */
+START_TEST(of_more_states_than_there_is_room_for_the_newest_is_taken)
+{
+    struct daemon_bus *bus = begin();
+    int64_t refused[REFUSALS_CHANNELS][REFUSALS_REASONS], newest = 0, first = 1;
+    const int64_t last[] = {80, 160, 165, 485, 485};
+
+    for (size_t i = 0; i < sizeof last / sizeof last[0]; i++) {
+        send_states(first, last[i]);
+        ck_assert_int_le(take_states(bus, &newest), last[i] - first + 1);
+        ck_assert_int_eq(newest, last[i]);
+        first = last[i] + 1;
+    }
+    daemon_bus_refused(bus, refused);
+    for (int reason = 0; reason < REFUSALS_REASONS; reason++)
+        ck_assert_int_eq(refused[REACH_STATUS_T_CHANNEL_STATE][reason], 0);
+    end();
+}
+END_TEST
+
+/* Some come while the loop takes: those that found no room are older than those that did. */
+START_TEST(a_state_that_found_no_room_is_not_taken_after_a_newer_one)
+{
+    struct daemon_bus *bus = begin();
+    struct received_state received;
+    int64_t newest = 10;
+
+    send_states(1, 80);
+    for (int i = 0; i < 10; i++)
+        ck_assert(daemon_bus_take_state(bus, &received));
+    send_states(81, 85);
+    ck_assert_int_eq(take_states(bus, &newest), 54 + 5);
+    ck_assert_int_eq(newest, 85);
+    end();
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
         a_wait_takes_as_long_as_ever_when_the_clock_is_set,
         a_start_that_fails_leaves_no_thread,
+        of_more_states_than_there_is_room_for_the_newest_is_taken,
+        a_state_that_found_no_room_is_not_taken_after_a_newer_one,
     };
 
     return SUITE_RUN("daemon_bus", tests);
