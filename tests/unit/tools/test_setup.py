@@ -1,5 +1,5 @@
-"""What ./run setup and tools/netns.sh say on other systems: one that is too old, one without apt-get,
-one whose kernel gives a user's namespace no rights. Small programs in PATH play the system."""
+"""What ./run setup and tools/netns.sh say on a system that is too old, on one without apt-get, and
+where a user's namespace has no rights. Small programs in PATH play the system."""
 
 import os
 import subprocess
