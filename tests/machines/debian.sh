@@ -9,6 +9,9 @@ cd "$here/../.."
 # shellcheck source=tests/boot/root.sh
 . tests/boot/root.sh
 
+# The way to the network is this machine's: whom it trusts, its proxy.
+trusted=/etc/ssl/certs/ca-certificates.crt
+
 make_tree() {
     rm -rf "$1" "$1.new"
     debootstrap --variant=minbase --include=git,ca-certificates "$2" "$1.new"
@@ -28,7 +31,7 @@ copy_source() {
 
 # In namespaces of its own: nothing that a package starts or mounts outlives it.
 inside() {
-    local tree=$1 command
+    local tree=$1 command network
     shift
     mount --make-rprivate /
     check_private "before"
@@ -36,10 +39,12 @@ inside() {
     mount -t tmpfs -o mode=1777,nosuid,nodev tmpfs "$tree/tmp"
     mount_devices "$tree/dev"
     cp /etc/resolv.conf "$tree/etc/resolv.conf"
+    cp "$trusted" "$tree$trusted"
+    mapfile -t network < <(env | grep -iE '^(https?_proxy|no_proxy|pip_index_url)=' || true)
     for command; do
         echo "debian: ./run $command" >&2
-        chroot "$tree" env -i LC_ALL=C.UTF-8 HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-            sh -c "cd /root/reachd && ./run $command" || fail "./run $command failed"
+        chroot "$tree" env -i "${network[@]}" PIP_CERT=$trusted LC_ALL=C.UTF-8 HOME=/root \
+            PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c "cd /root/reachd && ./run $command" || fail "./run $command failed"
     done
 }
 
