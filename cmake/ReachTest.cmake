@@ -30,7 +30,9 @@ function(reach_unit_test name)
   elseif(T_NO_ROUTE)
     set(namespace ${CMAKE_SOURCE_DIR}/tools/netns.sh --no-route)
   endif()
-  add_test(NAME ${name} COMMAND ${namespace} $<TARGET_FILE:${name}>)
+  # CMake puts the emulator in front of a target's name alone, and here a namespace may come first.
+  add_test(NAME ${name}
+    COMMAND ${namespace} ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${name}>)
   math(EXPR timeout "120 * ${REACH_TEST_PATIENCE}")
   set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT ${timeout}
     ENVIRONMENT "${REACH_TEST_ENVIRONMENT};$<$<BOOL:${T_LOADS_DRIVERS}>:${REACH_LEAKS_ALLOWED}>")

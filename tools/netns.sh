@@ -10,10 +10,22 @@ fail() {
     exit 1
 }
 
+# How to get a namespace here. Ubuntu since 24.04 makes one for a user and gives it no rights in it, so
+# that the failure comes late; its other switch is on all the while.
+remedy() {
+    if [ "$(cat /proc/sys/kernel/apparmor_restrict_unprivileged_userns 2>/dev/null)" = 1 ]; then
+        echo "allow it (as root: sysctl -w kernel.apparmor_restrict_unprivileged_userns=0) or run as root"
+    else
+        echo "allow it (as root: sysctl -w kernel.unprivileged_userns_clone=1, in a container:" \
+            "--cap-add SYS_ADMIN) or run as root"
+    fi
+}
+
 inside() {
     route=$1
     shift
-    ip link set lo up multicast on || fail "cannot bring lo up; is iproute2 installed?"
+    command -v ip >/dev/null || fail "cannot bring lo up: there is no program ip; install iproute2"
+    ip link set lo up multicast on || fail "cannot bring lo up in the namespace; $(remedy)"
     [ "$route" = no ] || ip route add 224.0.0.0/4 dev lo || fail "cannot add the multicast route"
     exec "$@"
 }
@@ -40,7 +52,6 @@ user=''
 [ "$(id -u)" -eq 0 ] || user='--user --map-root-user'
 # shellcheck disable=SC2086 # none or two words
 unshare $user --net true 2>/dev/null ||
-    fail "no network namespace can be made here; allow it (as root: sysctl -w" \
-        "kernel.unprivileged_userns_clone=1, in a container: --cap-add SYS_ADMIN) or run as root"
+    fail "no network namespace can be made here; $(remedy)"
 # shellcheck disable=SC2086
 exec unshare $user --net "$0" --inside "$route" "$@"

@@ -1,5 +1,5 @@
-"""Shows that tests can fail: puts one deliberate fault at a time into a copy of the tree and
-demands that the named test notices it.
+"""Shows that tests can fail: puts one deliberate fault at a time into the tree, as this program alone
+sees it, and demands that the named test notices it. The tree and its build stay as they are.
 
 Each *.toml beside this file holds entries
     [[mutation]]
@@ -14,18 +14,24 @@ Each *.toml beside this file holds entries
 """
 
 import argparse
+import contextlib
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# A random test may miss a fault now and then; whether it did must not change from run to run.
-FIXED_SEED = {"REACH_TEST_SEED": "1"}
+# A random test may miss a fault now and then; whether it did must not change from run to run. And
+# whether the tree was altered is not looked at, since what names the version would be built each time.
+SETTINGS = {"REACH_TEST_SEED": "1", "GIT_DIR": "/nowhere"}
+# A fault may leave something unused, which is not what must notice it.
+MAY_BE_UNUSED = '#pragma GCC diagnostic warning "-Wunused"\n#line 1\n'
 
 
 @dataclass(frozen=True)
@@ -63,46 +69,47 @@ def check_entry(mutation: Mutation, source: Path) -> None:
         raise BadEntryError(f"{mutation.name}: {mutation.file} holds the old text {count} times")
 
 
-def copy_tree(source: Path, copy: Path) -> None:
-    """Brings the copy up to date; files that are the same keep their time, for short rebuilds."""
-    listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=source, check=True, capture_output=True, text=True,
-    ).stdout.split("\0")  # fmt: skip
-    wanted = {name for name in listed if name and (source / name).is_file()}
-    for name in wanted:
-        target = copy / name
-        if not target.is_file() or target.read_bytes() != (source / name).read_bytes():
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(source / name, target)
-    for old in [
-        p for p in copy.rglob("*") if p.is_file() and str(p.relative_to(copy)) not in wanted
-    ]:
-        old.unlink()
-
-
 class Workshop:
-    """The copy of the tree and its build."""
+    """The tree as this process sees it: its own build lies below, and what a fault changes goes to
+    memory and is gone after it. So nothing is built twice, and nobody else sees a fault."""
 
-    def __init__(self, source: Path, work: Path):
-        self.copy, self.build = work / "source", work / "build"
-        work.mkdir(parents=True, exist_ok=True)
-        self.log = (work / "log.txt").open("w")
-        copy_tree(source, self.copy)
-        # -w: a fault may leave something unused, which is not what must notice it.
-        flags = [f"-DCMAKE_{language}_FLAGS=-O1 -w" for language in ("C", "CXX")]
-        self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
-                 "-DCMAKE_BUILD_TYPE=None", "-DREACH_INSTALL=OFF",
-                 f"-DREACH_PYTHON={sys.executable}", *flags)  # fmt: skip
-        command = ["ninja", "-C", self.build, "-t", "targets", "all"]
-        listing = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    def __init__(self, source: Path, build: Path, log: Path):
+        self.source, self.build = source, build
+        log.parent.mkdir(parents=True, exist_ok=True)
+        self.log = log.open("w")
+        self.memory = Path(tempfile.mkdtemp(prefix="reach-mutations-"))
+        self.must("mount", "-t", "tmpfs", "tmpfs", self.memory)
+        self.layers = [source]  # the uppermost first
+        listing = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True,
+                                 capture_output=True, text=True).stdout  # fmt: skip
         self.targets = {line.split(":")[0] for line in listing.splitlines()}
+
+    @contextlib.contextmanager
+    def layer(self, name: str) -> Iterator[Path]:
+        """While it lasts, all that is written below the source goes to this folder."""
+        upper, scratch = self.memory / name, self.memory / "scratch"
+        for folder in (upper, scratch):
+            folder.mkdir()
+        places = f"lowerdir={':'.join(map(str, self.layers))},upperdir={upper},workdir={scratch}"
+        self.must("mount", "-t", "overlay", "-o", places, "overlay", self.source)
+        try:
+            yield upper
+        finally:
+            self.must("umount", self.source)
+            shutil.rmtree(scratch)
+
+    def keep(self, upper: Path) -> None:
+        """What was written there lies below the layers to come."""
+        self.layers.insert(0, upper)
+
+    def must(self, *command) -> None:
+        subprocess.run([str(word) for word in command], check=True)
 
     def run(self, *command) -> bool:
         self.log.write(f"$ {' '.join(map(str, command))}\n")
         self.log.flush()
-        return subprocess.run(command, stdout=self.log, stderr=self.log,
-                              env=FIXED_SEED | os.environ).returncode == 0  # fmt: skip
+        return subprocess.run(command, stdout=self.log, stderr=self.log, cwd="/",
+                              env=SETTINGS | os.environ).returncode == 0  # fmt: skip
 
     def make(self, mutation: Mutation) -> bool:
         """Builds what the test needs."""
@@ -114,32 +121,45 @@ class Workshop:
                         "--output-on-failure")  # fmt: skip
 
     def outcome(self, mutation: Mutation) -> str:
-        path = self.copy / mutation.file
-        original = path.read_text()
-        path.write_text(original.replace(mutation.old, mutation.new))
-        try:
-            if not self.make(mutation):
-                return "does not compile"
-            return "SURVIVED" if self.passes(mutation.killed_by) else "killed"
-        finally:
-            path.write_text(original)
+        with self.layer("fault") as upper:
+            path = self.source / mutation.file
+            changed = path.read_text().replace(mutation.old, mutation.new)
+            if path.suffix in (".c", ".cc", ".h"):
+                changed = MAY_BE_UNUSED + changed
+            path.write_text(changed)
+            made = self.make(mutation)
+            survived = made and self.passes(mutation.killed_by)
+        shutil.rmtree(upper)
+        return "does not compile" if not made else "SURVIVED" if survived else "killed"
+
+
+def in_own_mounts() -> None:
+    """Begins anew where this process may mount, and where nobody else sees it."""
+    user = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
+    command = ["unshare", *user, "--mount", "--propagation", "private"]
+    os.execvp(command[0], [*command, sys.executable, *sys.argv, "--inside"])
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n\n")[0])
     parser.add_argument("--source", type=Path, default=HERE.parent.parent)
-    parser.add_argument(
-        "--work", type=Path, required=True, help="folder for the copy and its build"
-    )
+    parser.add_argument("--build", type=Path, help="what ./run build made; default SOURCE/build")
+    parser.add_argument("--log", type=Path, help="what was called; default BUILD/mutations.log")
+    parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--all", action="store_true", help="the slow ones too")
     parser.add_argument(
         "--only", default="", help="only mutations whose name or file holds this text"
     )
     options = parser.parse_args()
+    source = options.source.resolve()
+    build = (options.build or source / "build").resolve()
+    if not (build / "build.ninja").is_file():
+        print(f"mutations: nothing is built in {build}: ./run build", file=sys.stderr)
+        return 2
     try:
-        entries = read_entries(options.source / "tests/mutations")
+        entries = read_entries(source / "tests/mutations")
         for entry in entries:  # also those that are not tried now: the tree has moved on
-            check_entry(entry, options.source)
+            check_entry(entry, source)
     except BadEntryError as error:
         print(f"mutations: {error}", file=sys.stderr)
         return 1
@@ -147,15 +167,19 @@ def main() -> int:
         m for m in entries
         if (options.all or not m.slow) and options.only in m.name + " " + m.file
     ]  # fmt: skip
-    return try_all(Workshop(options.source, options.work), mutations)
+    if not options.inside:
+        in_own_mounts()
+    return try_all(Workshop(source, build, options.log or build / "mutations.log"), mutations)
 
 
 def try_all(shop: Workshop, mutations: list[Mutation]) -> int:
     healthy = {}
-    for test, mutation in sorted({m.killed_by: m for m in mutations}.items()):
-        healthy[test] = shop.make(mutation) and shop.passes(test)
-        if not healthy[test]:
-            print(f"mutations: {test} fails without any mutation, see {shop.log.name}")
+    with shop.layer("healthy") as built:
+        for test, mutation in sorted({m.killed_by: m for m in mutations}.items()):
+            healthy[test] = shop.make(mutation) and shop.passes(test)
+            if not healthy[test]:
+                print(f"mutations: {test} fails without any mutation, see {shop.log.name}")
+    shop.keep(built)
     killed = 0
     for mutation in (m for m in mutations if healthy[m.killed_by]):
         start = time.monotonic()
