@@ -101,11 +101,12 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
     if (config_head_joints(config) != config->space.n_head) {
         snprintf(error, error_size,
                  config->space.n_head > 0
-                     ? "head.min and head.max must name two joints, yaw and pitch"
-                     : "head.min and head.max: a Cartesian task space has no head");
+                     ? "head.min and head.max must name two joints, yaw and pitch; cameras that "
+                       "nobody turns want task.space: fixed"
+                     : "head.min and head.max: only the visual task space has a head");
         return -1;
     }
-    if (config->space.kind == SPACE_VISUAL && config->eyes_pixels_per_radian < 1) {
+    if (config->space.kind != SPACE_CARTESIAN && config->eyes_pixels_per_radian < 1) {
         snprintf(error, error_size, "eyes.pixels_per_radian must be given, 1 or more");
         return -1;
     }
@@ -124,6 +125,12 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
     if (config->learner_body_order.n != 0 &&
         config->learner_body_order.n != config_arm_joints(config)) {
         snprintf(error, error_size, "learner.body.order must have an entry for each arm joint");
+        return -1;
+    }
+    if (config->space.kind == SPACE_FIXED && config->learner.features == LEARNER_BODY) {
+        snprintf(error, error_size,
+                 "learner.experts must be polynomial or linear where task.space is fixed: no body "
+                 "is found through cameras that nobody turns");
         return -1;
     }
     if (config->learner_body_start[0] && config->space.kind != SPACE_CARTESIAN) {

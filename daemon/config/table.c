@@ -118,7 +118,7 @@ static const struct option_row table[] = {
     COUNT("practice.missed", practice_missed, "2", 1, 4,
           "number of missed targets among the last 4 at which practice begins"),
     NUMBER("practice.tolerance", practice_tolerance, "px", "5", 0.01, 1000,
-           "error above which a target counts as missed when its time is over (visual space)"),
+           "error above which a target counts as missed when its time is over (in an image)"),
     NUMBER("practice.tolerance_position", practice_tolerance_position, "m", "0.01", 1e-6, 10,
            "error above which a target counts as missed when its time is over (Cartesian space)"),
     NUMBER("practice.range", practice_range, "deg", "10", 0.1, 360,
@@ -137,8 +137,9 @@ static const struct option_row table[] = {
     NUMBER("explore.tolerance", explore_tolerance, "px", "20", 0.1, 1000,
            "distance from the image centre within which the marker gives a sample in exploring"),
 
-    CHOICE("task.space", task_space, "visual", "visual|cartesian",
-           "what is learned: visual = head angles that fixate a marker, cartesian = a position"),
+    CHOICE("task.space", task_space, "visual", "visual|cartesian|fixed",
+           "what is learned: visual = head angles that fixate a marker, cartesian = a position, "
+           "fixed = a marker's place in the images of two cameras that nobody turns"),
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4: gain on the task error"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
            "time constant with which reaching slides to a new target; 0 = it jumps"),

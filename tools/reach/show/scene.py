@@ -73,7 +73,7 @@ class Scene:
     @property
     def sees(self) -> bool:
         """Whether targets are in images; else they are places."""
-        return self.status is None or self.status.space == reach.status_t.VISUAL
+        return self.status is None or self.status.space != reach.status_t.CARTESIAN
 
     def target(self) -> tuple[float, float, float] | None:
         """That of the behaviour: u, v, disparity (px), or x, y, z (m)."""
