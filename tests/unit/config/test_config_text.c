@@ -18,7 +18,8 @@ static void must_come_back(const struct config *config)
 
 START_TEST(every_robot_comes_back)
 {
-    static const char *const robots[] = {"kobian.yaml", "icub.yaml", "sixaxis.yaml"};
+    static const char *const robots[] = {"kobian.yaml", "icub.yaml", "sixaxis.yaml",
+                                         "watched.yaml"};
 
     for (size_t i = 0; i < sizeof robots / sizeof robots[0]; i++) {
         struct config config = fixture_robot_config(robots[i]);
