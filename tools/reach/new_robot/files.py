@@ -69,7 +69,7 @@ explore:
 
 task:
   space: cartesian            # x, y, z of link {tip} in the frame of link {base}, m
-  # Two thirds of the arm's reach, {reach:.2f} m: with it what is scaled by it suits arms of any size.
+  # Two thirds of the arm's reach, {reach:.2f} m: what is scaled by it suits arms of any size.
   # With less the arm gives up places where it is nearly stretched.
   scale_position: {scale}     # m that count as one
 
