@@ -1,5 +1,5 @@
-"""docs/howto/extend.md is carried out in a copy of the tree: its files written, its differences applied,
-its test built and run. Only what is needed is built, and only what has changed since the last time."""
+"""docs/howto/extend.md is carried out in a copy of the tree: its files written, its differences
+applied, its test built and run. Built is only what is needed, and what has changed since."""
 
 import filecmp
 import os
