@@ -16,9 +16,9 @@ ENLARGED = 4  # tesseract wants letters of some 30 pixels
 
 
 class Screen:
-    """A context: Xvfb on a display of its own, ended on leaving. `composite`: windows deeper than the
-    screen, such as Rerun's, are kept beside it, and stay black where no compositor puts them on it,
-    as a desktop does."""
+    """A context: Xvfb on a display of its own, ended on leaving. `composite`: windows deeper than
+    the screen, such as Rerun's, are kept beside it, and stay black where no compositor puts them on
+    it, as a desktop does."""
 
     def __init__(self, width: int, height: int, composite: bool = True):
         self._folder = tempfile.TemporaryDirectory()
