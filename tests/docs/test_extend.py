@@ -83,7 +83,11 @@ class Extend(unittest.TestCase):
         lines = run(BUILT / "bin/reach-log", "info", log).splitlines()
         (status,) = [line for line in lines if line.startswith("REACH_STATUS")]
         self.assertIn("not ours", status)
-        run(BUILT / "bin/reachd", "--replay", log, "--verify")
+        run(BUILT / "bin/reachd", "--replay", log)
+        verified = subprocess.run([BUILT / "bin/reachd", "--replay", log, "--verify"],
+                                  capture_output=True, text=True)  # fmt: skip
+        self.assertEqual(verified.returncode, 1)
+        self.assertIn("REACH_STATUS", verified.stderr)
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ def five_lines(out: Path, record: Record, result: dict) -> list[str]:
         for name in ("hand", "tool")
     )
     return [
-        f"report   {out / 'report.html'}: open it in a browser",
+        f"report   {out / 'report.html'}: open it in a browser; video {out / 'demo.mp4'}",
         f"summary  {out / 'summary.json'}: test errors hand {_list(hand['rmse_pct'])} %, tool"
         f" {_list(tool['rmse_pct'])} % of range (yaw, pitch, disparity)",
         f"log      {out / 'run.lcmlog'}: {result['robot_seconds']:.0f} s of robot time,"

@@ -28,6 +28,8 @@ class Operator:
     """Until the first key the robot goes through a tour by itself: it learns, draws a star, is
     given a tool, and so on."""
 
+    keys = KEYS  # as the picture tells of them
+
     def __init__(self, bus: Bus, clock: HeldClock, scene: Scene, robot: Robot, tour: bool = True):
         self._bus, self._clock, self._scene = bus, clock, scene
         self._tools = robot.tools()
