@@ -1,4 +1,5 @@
-"""A piece of an experiment as a video: both eyes, the robot from outside, curves; ./run show's picture."""
+"""A piece of an experiment as a video: both eyes, the robot from outside, curves, as ./run show has
+them."""
 
 import sys
 from dataclasses import dataclass
@@ -25,8 +26,8 @@ class _Narrator:
 
 
 class FilmedClock:
-    """A clock that a film is taken by, from begin() on for SECONDS of the robot's time. The simulator
-    runs with --view, and draws while it is filmed alone."""
+    """A clock that a film is taken by, from begin() on for SECONDS of the robot's time. The
+    simulator runs with --view, and draws only while it is filmed."""
 
     def __init__(self, clock, bus: Bus, path: Path):
         self._clock, self._bus, self._path = clock, bus, path
