@@ -41,6 +41,7 @@ STYLE = {
     "grid.linewidth": 0.6,
     "legend.frameon": False,
     "lines.linewidth": 1.3,
+    "axes.formatter.min_exponent": 4,  # 0.1 and 100, not powers of ten
     "svg.hashsalt": "reach",
 }
 matplotlib.rcParams.update(STYLE)
