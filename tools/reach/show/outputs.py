@@ -17,7 +17,7 @@ from ..programs import BINARIES
 from .layout import HEIGHT, WIDTH
 
 RATE = 25  # pictures a second of the robot's time
-END_SECONDS = 5.0
+END_SECONDS = 60.0  # a video that is cut off cannot be played
 
 
 class OutputError(Exception):
