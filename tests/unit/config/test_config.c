@@ -130,8 +130,14 @@ END_TEST
 /* A small file for an arm of one's own stays small. */
 START_TEST(cameras_that_nobody_turns_need_few_numbers)
 {
-    struct config config = fixture_robot_config("watched.yaml");
+    char name[512], error[512] = "";
+    const char *path = name, *overrides[] = {"learner.experts=body"};
+    struct config config;
 
+    snprintf(name, sizeof name, "%s/etc/watched.yaml", getenv("REACH_SOURCE_DIR"));
+    ck_assert_int_eq(config_load(&config, &path, 1, overrides, 1, error, sizeof error), -1);
+    ck_assert_msg(strstr(error, "learner.experts must be polynomial") != NULL, "%s", error);
+    config = fixture_robot_config("watched.yaml");
     ck_assert_int_eq(config.space.kind, SPACE_FIXED);
     ck_assert_int_eq(config_head_joints(&config), 0);
     ck_assert_double_eq(config.space.unit[0], 1);
