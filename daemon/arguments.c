@@ -12,6 +12,10 @@ static const struct argument_row rows[] = {
     ARGUMENT_ON("no-rt", 0, struct arguments, no_rt,
                 "real time without priority and locked memory, for developers"),
     ARGUMENT_ON("verbose", 'v', struct arguments, verbose, "say more"),
+    ARGUMENT_ON(
+        "check-config", 0, struct arguments, check_config,
+        "read the configuration, print every option as it holds, with what follows from the "
+        "robot, and end"),
     ARGUMENT_ON("check-model", 0, struct arguments, check_model,
                 "print the samples and the hash of the model in model.directory, or what is wrong "
                 "with it, and change nothing"),
@@ -46,8 +50,8 @@ static const char *contradiction(const struct arguments *arguments)
         return "--replay reads a log, --replay-clock the bus: one of them is wanted";
     if (!replays && (arguments->verify || arguments->n_models > 0))
         return "--verify and --model belong to --replay or --replay-clock";
-    if (replays && (arguments->lockstep || arguments->check_model))
-        return "--lockstep and --check-model do not go with a replay";
+    if (replays && (arguments->lockstep || arguments->check_config || arguments->check_model))
+        return "--lockstep, --check-config and --check-model do not go with a replay";
     if (arguments->configuration.n_paths == 0 &&
         (!replays || arguments->configuration.n_overrides > 0))
         return "--config is missing";

@@ -12,7 +12,7 @@ enum { MAX_MODELS = 16 };
 struct arguments {
     struct option_sources configuration;
     const char *url;
-    bool lockstep, no_rt, check_model, verbose;
+    bool lockstep, no_rt, check_config, check_model, verbose;
 
     const char *replay[PIECES_MOST]; /* a log, or pieces of one */
     int n_replay;                    /* 0 = none */

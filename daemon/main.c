@@ -5,6 +5,7 @@
 #include "daemon/body_start.h"
 #include "daemon/bus/bus.h"
 #include "daemon/config/load.h"
+#include "daemon/config/text.h"
 #include "daemon/control/tick.h"
 #include "daemon/housekeeping/housekeeping.h"
 #include "daemon/model_of_store.h"
@@ -227,6 +228,10 @@ static int replay_or_run(struct reachd *reachd, char *error, size_t error_size)
 {
     if (reachd->arguments.n_replay > 0 || reachd->arguments.replay_clock)
         return replay(reachd, error, error_size);
+    if (reachd->arguments.check_config) {
+        config_print(&reachd->config, stdout);
+        return 0;
+    }
     if (model_of_store_check(&reachd->config, error, error_size))
         return -1;
     return reachd->arguments.check_model ? check_model(&reachd->config, error, error_size)

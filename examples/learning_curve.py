@@ -30,11 +30,11 @@ best = np.where(offered, distances, np.inf).min(axis=1)
 # %% Single samples as dots, and means over a window that slides.
 window = max(1, min(20, len(samples) // 4))
 smooth = np.ones(window) / window
-curves = {"the solution in use": acted_on, "the best of all": best}
+curves = {"the solution in use": (acted_on, "-"), "the best of all": (best, "--")}
 figure, axes = plt.subplots(figsize=(8, 4), layout="constrained")
 axes.plot(acted_on, ".", color="grey", markersize=2, alpha=0.4, label="each sample")
-for name, errors in curves.items():
-    axes.plot(np.convolve(errors, smooth, "valid"), label=name)
+for name, (errors, line) in curves.items():
+    axes.plot(np.convolve(errors, smooth, "valid"), line, color="black", label=name)
     print(f"{name}: {errors[:window].mean():.3g} at first, {errors[-window:].mean():.3g} at last")
 axes.set(xlabel="sample", ylabel="error in task space", yscale="log")
 axes.legend()

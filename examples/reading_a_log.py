@@ -36,12 +36,16 @@ print(f"{status['experts'][-1]} experts at the end")
 # %% One picture of it all.
 figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 5), layout="constrained")
 when = (marker["utime"] - start) * 1e-6
-for name in ("u_right", "v_right", "disparity"):
-    upper.plot(when[seen], marker[name][seen], ".", markersize=2, label=name)
-upper.set(xlabel="time [s]", ylabel="place of the ball [px]")
+for name, shape, shade in (
+    ("u_right", ".", "0.0"),
+    ("v_right", "^", "0.4"),
+    ("disparity", "x", "0.7"),
+):
+    upper.plot(when[seen], marker[name][seen], shape, color=shade, markersize=2, label=name)
+upper.set(xlabel="time, s", ylabel="place of the ball, px")
 upper.legend()
 lower.plot(seconds, cost, linewidth=0.5)
-lower.set(xlabel="time [s]", ylabel="tick [us]", yscale="log")
+lower.set(xlabel="time, s", ylabel="tick, µs", yscale="log")
 picture = log.with_name("reading_a_log.png")
 figure.savefig(picture, dpi=120)
 print(f"wrote {picture}")

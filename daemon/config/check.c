@@ -96,19 +96,30 @@ static int check_motion(const struct config *config, char *error, size_t error_s
     return wrong ? -1 : 0;
 }
 
+/* What the task space wants. */
+static int check_space(const struct config *config, char *error, size_t error_size)
+{
+    const char *wrong = NULL;
+
+    if (config_head_joints(config) != config->space.n_head)
+        wrong = config->space.n_head > 0
+                    ? "head.min and head.max must name two joints, yaw and pitch; cameras that "
+                      "nobody turns want task.space: fixed"
+                    : "head.min and head.max: only the visual task space has a head";
+    else if (config->space.kind != SPACE_CARTESIAN && config->eyes_pixels_per_radian < 1)
+        wrong = "eyes.pixels_per_radian must be given, 1 or more";
+    else if (config->space.kind == SPACE_FIXED && config->learner.features == LEARNER_BODY)
+        wrong = "learner.experts must be polynomial or linear where task.space is fixed: no body "
+                "is found through cameras that nobody turns";
+    else if (config->learner_body_start[0] && config->space.kind != SPACE_CARTESIAN)
+        wrong = "learner.body.start helps where task.space is cartesian: eyes see no metres";
+    if (wrong)
+        snprintf(error, error_size, "%s", wrong);
+    return wrong ? -1 : 0;
+}
+
 static int check_sizes(const struct config *config, char *error, size_t error_size)
 {
-    if (config_head_joints(config) != config->space.n_head) {
-        snprintf(error, error_size,
-                 config->space.n_head > 0
-                     ? "head.min and head.max must name two joints, yaw and pitch"
-                     : "head.min and head.max: a Cartesian task space has no head");
-        return -1;
-    }
-    if (config->space.kind == SPACE_VISUAL && config->eyes_pixels_per_radian < 1) {
-        snprintf(error, error_size, "eyes.pixels_per_radian must be given, 1 or more");
-        return -1;
-    }
     if (config_arm_joints(config) == 0) {
         snprintf(error, error_size, "arm.min and arm.max name no joint");
         return -1;
@@ -124,11 +135,6 @@ static int check_sizes(const struct config *config, char *error, size_t error_si
     if (config->learner_body_order.n != 0 &&
         config->learner_body_order.n != config_arm_joints(config)) {
         snprintf(error, error_size, "learner.body.order must have an entry for each arm joint");
-        return -1;
-    }
-    if (config->learner_body_start[0] && config->space.kind != SPACE_CARTESIAN) {
-        snprintf(error, error_size,
-                 "learner.body.start helps where task.space is cartesian: eyes see no metres");
         return -1;
     }
     return 0;
@@ -156,6 +162,7 @@ int config_check(const struct config *config, char *error, size_t error_size)
                    check_range("head", &config->head_min, &config->head_max, error, error_size) ||
                    check_range("babble", &config->babble_min, &config->babble_max, error,
                                error_size) ||
+                   check_space(config, error, error_size) ||
                    check_sizes(config, error, error_size) ||
                    check_babble(config, error, error_size) ||
                    check_motion(config, error, error_size) ||

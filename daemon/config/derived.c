@@ -1,5 +1,7 @@
 #include "daemon/config/derived.h"
 
+static const double largest_px = 10000; /* no image is so large */
+
 static void set_visual(struct config *config)
 {
     const double per_pixel = 1 / config->eyes_pixels_per_radian;
@@ -14,7 +16,7 @@ static void set_visual(struct config *config)
                   config->learner_noise_disparity},
         .norm = {config->learner_lwpr_norm_angle, config->learner_lwpr_norm_angle,
                  config->learner_lwpr_norm_disparity},
-        .largest = 10000, /* px: no image is so large */
+        .largest = largest_px,
     };
 }
 
@@ -29,12 +31,36 @@ static void set_cartesian(struct config *config)
     }
 }
 
+/* What is an angle of a head that turns is so many pixels in an eye that does not. */
+static void set_fixed(struct config *config)
+{
+    const double pixels = config->eyes_pixels_per_radian;
+
+    set_visual(config);
+    config->space.kind = SPACE_FIXED;
+    config->space.n_head = 0;
+    config->space.fixates = false;
+    for (int row = 0; row < 2; row++) {
+        config->space.unit[row] = 1;
+        config->space.scale[row] *= pixels;
+        config->space.noise[row] *= pixels;
+        config->space.norm[row] *= pixels;
+    }
+}
+
 static void set_space(struct config *config)
 {
-    if (config->task_space == SPACE_CARTESIAN)
+    switch ((enum space_kind)config->task_space) {
+    case SPACE_CARTESIAN:
         set_cartesian(config);
-    else
+        break;
+    case SPACE_FIXED:
+        set_fixed(config);
+        break;
+    default:
         set_visual(config);
+        break;
+    }
 }
 
 /* Nobody has said which part of the range is of use: all of it, and babbling finds out. */

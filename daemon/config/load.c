@@ -1,6 +1,7 @@
 #include "daemon/config/load.h"
 
 #include "daemon/config/check.h"
+#include "daemon/config/defaults.h"
 #include "daemon/config/derived.h"
 #include "daemon/config/table.h"
 #include "daemon/config/text.h"
@@ -23,12 +24,24 @@ static int set_checksum(struct config *config, char *error, size_t error_size)
     return 0;
 }
 
-int config_load(struct config *config, const char *const *paths, int n_paths,
-                const char *const *overrides, int n_overrides, char *error, size_t error_size)
+/* Read once to know the robot, then again over the defaults that follow from it. `running` is what
+ * the learner was made with, NULL at the start: where babbling goes may change, its middle no more.
+ */
+static int load(struct config *config, const struct config *running, const char *const *paths,
+                int n_paths, const char *const *overrides, int n_overrides, char *error,
+                size_t error_size)
 {
+    struct config robot;
     char reason[320];
 
+    config_preset(&robot);
+    if (options_load(config_table(), &robot, paths, n_paths, overrides, n_overrides, error,
+                     error_size))
+        return -1;
     config_preset(config);
+    config_set_defaults(config, &robot);
+    if (running)
+        config->learner_reference = running->learner_reference;
     if (options_load(config_table(), config, paths, n_paths, overrides, n_overrides, error,
                      error_size))
         return -1;
@@ -38,6 +51,19 @@ int config_load(struct config *config, const char *const *paths, int n_paths,
         return -1;
     }
     return set_checksum(config, error, error_size);
+}
+
+int config_load(struct config *config, const char *const *paths, int n_paths,
+                const char *const *overrides, int n_overrides, char *error, size_t error_size)
+{
+    return load(config, NULL, paths, n_paths, overrides, n_overrides, error, error_size);
+}
+
+int config_load_again(struct config *config, const struct config *running, const char *const *paths,
+                      int n_paths, const char *const *overrides, int n_overrides, char *error,
+                      size_t error_size)
+{
+    return load(config, running, paths, n_paths, overrides, n_overrides, error, error_size);
 }
 
 int config_from_text(struct config *config, char *text, char *error, size_t error_size)

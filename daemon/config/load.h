@@ -12,6 +12,12 @@
 int config_load(struct config *config, const char *const *paths, int n_paths,
                 const char *const *overrides, int n_overrides, char *error, size_t error_size);
 
+/* The same while the daemon runs, with `running`. What babbling may change does not move the middle
+ * about which the learner was made. */
+int config_load_again(struct config *config, const struct config *running, const char *const *paths,
+                      int n_paths, const char *const *overrides, int n_overrides, char *error,
+                      size_t error_size);
+
 /* Loads what config_text() gave. Returns 0, or -1 with one line in `error`. The text is taken
  * apart.
  */

@@ -8,8 +8,9 @@
  *   that knows which way the image moves; the paper's "positive gains" K_0, K_1 of equation 11 hide
  *   these signs. `eyes.pixels_per_radian` is the linear relation that it assumes (section 5.2.1).
  * cartesian: seen and x are the end-effector's position in the ground frame, m.
+ * fixed: seen and x are [u_R to the right, v_R down, u_L - u_R], px, in cameras that nobody turns.
  *
- * Both are x_i = (angle of head joint i, where the space has one) + unit_i * seen_i. */
+ * All are x_i = (angle of head joint i, where the space has one) + unit_i * seen_i. */
 #ifndef REACH_DAEMON_CONFIG_SPACE_H
 #define REACH_DAEMON_CONFIG_SPACE_H
 
@@ -18,7 +19,7 @@
 #define SPACE_DIMENSIONS 3
 
 /* Values are those of status_t. */
-enum space_kind { SPACE_VISUAL, SPACE_CARTESIAN };
+enum space_kind { SPACE_VISUAL, SPACE_CARTESIAN, SPACE_FIXED };
 
 struct space {
     enum space_kind kind;

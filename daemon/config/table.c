@@ -1,5 +1,6 @@
 #include "daemon/config/table.h"
 
+#include "daemon/config/defaults.h"
 #include "learner/parameters/rows.h"
 
 #include <string.h>
@@ -106,9 +107,9 @@ static const struct option_row table[] = {
          "lower limits of random arm postures; both limits empty = arm's range less motion.margin"),
     LIST("babble.max", babble_max_given, "deg", "[]", -360, 360,
          "upper limits of random arm postures; both limits empty = arm's range less motion.margin"),
-    NUMBER("babble.gain", babble_gain, "1/s", "4", 0.01, 50,
+    NUMBER("babble.gain", babble_gain, "1/s", "6", 0.01, 50,
            "gain of the joint position control that moves the arm to a random posture"),
-    NUMBER("babble.tolerance", babble_tolerance, "deg", "0.3", 0.001, 20,
+    NUMBER("babble.tolerance", babble_tolerance, "deg", option_preset, 0.001, 20,
            "distance from a random posture at which babbling counts it as reached"),
     NUMBER("babble.timeout", babble_timeout, "s", "10", 0.1, 600,
            "time for a move to a random posture, after which the robot fixates where the arm is"),
@@ -118,7 +119,7 @@ static const struct option_row table[] = {
     COUNT("practice.missed", practice_missed, "2", 1, 4,
           "number of missed targets among the last 4 at which practice begins"),
     NUMBER("practice.tolerance", practice_tolerance, "px", "5", 0.01, 1000,
-           "error above which a target counts as missed when its time is over (visual space)"),
+           "error above which a target counts as missed when its time is over (in an image)"),
     NUMBER("practice.tolerance_position", practice_tolerance_position, "m", "0.01", 1e-6, 10,
            "error above which a target counts as missed when its time is over (Cartesian space)"),
     NUMBER("practice.range", practice_range, "deg", "10", 0.1, 360,
@@ -137,18 +138,19 @@ static const struct option_row table[] = {
     NUMBER("explore.tolerance", explore_tolerance, "px", "20", 0.1, 1000,
            "distance from the image centre within which the marker gives a sample in exploring"),
 
-    CHOICE("task.space", task_space, "visual", "visual|cartesian",
-           "what is learned: visual = head angles that fixate a marker, cartesian = a position"),
+    CHOICE("task.space", task_space, "visual", "visual|cartesian|fixed",
+           "what is learned: visual = head angles that fixate a marker, cartesian = a position, "
+           "fixed = a marker's place in the images of two cameras that nobody turns"),
     NUMBER("task.gain", task_gain, "1/s", "2.5", 0.01, 50, "K_m of eq. 4: gain on the task error"),
     NUMBER("task.smoothing", task_smoothing, "s", "0.15", 0, 10,
            "time constant with which reaching slides to a new target; 0 = it jumps"),
     NUMBER("task.follow_gain", task_follow_gain, "1/s", "3", 0, 50,
            "k_c of eq. 13: gain with which the arm follows the head in coordination"),
-    NUMBER("task.secondary_gain", task_secondary_gain, "rad/s", "0.05", 0, 10,
+    NUMBER("task.secondary_gain", task_secondary_gain, "rad/s", option_preset, 0, 10,
            "gain K_s of eq. 4: draws the joints to the middle of their range in the null space"),
-    NUMBER("task.singular_threshold", task_singular_threshold, NULL, "0.05", 1e-9, 1e3,
+    NUMBER("task.singular_threshold", task_singular_threshold, NULL, option_preset, 1e-9, 1e3,
            "delta_T of eq. 9: where damping begins, in scaled task units per radian"),
-    NUMBER("task.damping_max", task_damping_max, NULL, "0.05", 0, 1e3,
+    NUMBER("task.damping_max", task_damping_max, NULL, option_preset, 0, 1e3,
            "lambda_MAX of eq. 9: greatest damping, in scaled task units per radian"),
     NUMBER("task.scale_angle", task_scale_angle, "deg", "10", 1e-6, 360,
            "scaled task units: angles are divided by this before norms (eq. 8 and eq. 9)"),
@@ -160,17 +162,17 @@ static const struct option_row table[] = {
     CHOICE("learner.kind", learner_kind, "imle", "imle|lwpr",
            "learning algorithm: imle = mixture of experts, lwpr = local regression"),
     LEARNER_ROWS(LEARNER_ROW),
-    NUMBER("learner.noise_angle", learner_noise_angle, "deg", "1", 1e-6, 90,
+    NUMBER("learner.noise_angle", learner_noise_angle, "deg", "0.5", 1e-6, 90,
            "standard deviation of angles about an expert's prediction: square root of Psi_0"),
     NUMBER("learner.noise_disparity", learner_noise_disparity, "px", "3", 1e-6, 1000,
            "standard deviation of disparities about an expert's prediction: square root of Psi_0"),
     NUMBER("learner.noise_position", learner_noise_position, "m", "0.01", 1e-6, 100,
            "standard deviation of positions about an expert's prediction: square root of Psi_0"),
-    NUMBER("learner.reach", learner_reach, "rad", "0.5", 1e-6, 100,
+    NUMBER("learner.reach", learner_reach, "rad", "3.16", 1e-6, 100,
            "standard deviation of a new expert's joint angles: square root of sigma_0"),
-    LIST("learner.reference", learner_reference, "deg", NULL, -360, 360,
+    LIST("learner.reference", learner_reference, "deg", option_preset, -360, 360,
          "middle of the range of each arm joint, where the polynomials are centred"),
-    NUMBER("learner.scale", learner_scale, "rad", "1", 1e-6, 100,
+    NUMBER("learner.scale", learner_scale, "rad", "1.5", 1e-6, 100,
            "unit of the joint angles in the polynomials and in LWPR's metric"),
     LIST("learner.body.order", learner_body_order, NULL, "[]", 1, OPTION_MAX_LIST,
          "body: arm joints from the base to the tip, by number from 1; empty = as they come"),
@@ -220,12 +222,26 @@ void config_preset(struct config *config)
     config->learner.clustering = LEARNER_CLUSTER_LEADER;
     config->learner.inherit = true;
     config->learner.most_bytes = most_bytes;
+    config->learner.hyper_psi = config->learner.prior_psi = INFINITY;
+    config->learner.gamma_floor = 0.05;
 }
 
 void config_print_options(FILE *out)
 {
+    enum { ROWS = sizeof table / sizeof table[0], HELP_SIZE = 320 };
+    struct option_row rows[ROWS];
     struct config config;
+    char help[ROWS][HELP_SIZE];
 
     config_preset(&config);
-    options_print(table, &config, out);
+    memcpy(rows, table, sizeof rows);
+    for (int i = 0; rows[i].name; i++) {
+        const char *reason = config_default_reason(rows[i].name);
+        if (!reason)
+            continue;
+        snprintf(help[i], HELP_SIZE, "%s; derived: %s", rows[i].help, reason);
+        rows[i].help = help[i];
+        rows[i].initial = "derived";
+    }
+    options_print(rows, &config, out);
 }

@@ -10,7 +10,8 @@
 const struct option_row *config_table(void);
 
 /* All zero, but for what the learner's rows hold where no file names them: its own defaults for the
- * Kobian's sizes, with experts that span the workspace, so that a tool is an expert. */
+ * Kobian's sizes, with experts that span the workspace, so that a tool is an expert. What follows
+ * from the robot comes on top (defaults.h). */
 void config_preset(struct config *config);
 
 /* The reference of the options, for --help-options. */

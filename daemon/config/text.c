@@ -3,6 +3,7 @@
 #include "common/base/checksum.h"
 #include "common/bus/open.h"
 #include "common/program/version.h"
+#include "daemon/config/defaults.h"
 #include "daemon/config/table.h"
 
 #include <stdio.h>
@@ -10,13 +11,14 @@
 
 enum { LINE_SIZE = 64 + 2 * OPTION_TEXT_SIZE };
 
-/* As --set takes it. A text stands in quotes, since YAML would take some characters otherwise. */
+/* Value and name, as --set takes them and as YAML does. A text stands in quotes, since YAML would
+ * take some characters otherwise. */
 static void write_row(const struct option_row *row, const struct config *config,
-                      char out[LINE_SIZE])
+                      const char *between, char out[LINE_SIZE])
 {
     char value[OPTION_TEXT_SIZE];
     bool list = row->type == OPTION_LIST || row->type == OPTION_SPREAD;
-    char *end = out + sprintf(out, "%s=", row->name);
+    char *end = out + sprintf(out, "%s%s", row->name, between);
 
     option_text(row, config, value);
     if (list && !value[0])
@@ -41,12 +43,43 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE])
 
     text[0] = '\0';
     for (const struct option_row *row = config_table(); row->name; row++) {
-        write_row(row, config, next);
+        write_row(row, config, "=", next);
         used += snprintf(text + used, (size_t)(CONFIG_TEXT_SIZE - used), "%s\n", next);
         if (used >= CONFIG_TEXT_SIZE)
             return -1;
     }
     return used;
+}
+
+/* What it follows from, where that is the robot. */
+static void print_reason(const struct option_row *row, const char *line,
+                         const struct config *derived, FILE *out)
+{
+    const char *reason = config_default_reason(row->name);
+    char would_be[LINE_SIZE];
+
+    if (!reason)
+        return;
+    write_row(row, derived, ": ", would_be);
+    if (strcmp(line, would_be) == 0)
+        fprintf(out, "  # derived: %s", reason);
+    else
+        fprintf(out, "  # named, else %s", would_be + strlen(row->name) + strlen(": "));
+}
+
+void config_print(const struct config *config, FILE *out)
+{
+    struct config derived;
+    char line[LINE_SIZE];
+
+    config_preset(&derived);
+    config_set_defaults(&derived, config);
+    for (const struct option_row *row = config_table(); row->name; row++) {
+        write_row(row, config, ": ", line);
+        fputs(line, out);
+        print_reason(row, line, &derived, out);
+        fputc('\n', out);
+    }
 }
 
 uint32_t config_text_checksum(const char *text)

@@ -7,6 +7,7 @@
 #include "daemon/config/config.h"
 
 #include <reach_config_t.h>
+#include <stdio.h>
 
 enum { CONFIG_TEXT_SIZE = sizeof((reach_config_t *)0)->text }; /* with its terminator */
 
@@ -15,6 +16,10 @@ int config_text(const struct config *config, char text[CONFIG_TEXT_SIZE]);
 
 /* CRC-32 of the text. */
 uint32_t config_text_checksum(const char *text);
+
+/* Every option as YAML, in people's units; those whose defaults follow from the robot with what
+ * they follow from. */
+void config_print(const struct config *config, FILE *out);
 
 /* The message for the bus. */
 void config_message(const struct config *config, reach_config_t *message);

@@ -21,8 +21,8 @@ void reload_configuration(struct reload *reload, struct daemon_bus *bus, struct 
     char error[512];
     int changes;
 
-    if (config_load(&reload->read, reload->paths, reload->n_paths, reload->overrides,
-                    reload->n_overrides, error, sizeof error) ||
+    if (config_load_again(&reload->read, reload->accepted, reload->paths, reload->n_paths,
+                          reload->overrides, reload->n_overrides, error, sizeof error) ||
         !config_reloadable(reload->accepted, &reload->read, &changes, error, sizeof error)) {
         log_error("the configuration stays as it is: %s", error);
         return;

@@ -36,6 +36,8 @@ std::string Session::refuse_reason(const reach_sim_request_t &request) const
         return request.value >= 0.01 && request.value <= 100 ? "" : "speed must be 0.01 .. 100";
     case REACH_SIM_REQUEST_T_RUN_UNTIL:
         return control_.lockstep ? "" : "real time cannot be held; RUN_UNTIL is for --lockstep";
+    case REACH_SIM_REQUEST_T_VIEW:
+        return onlooker_ ? "" : "nobody looks on; start reach-simrobot with --view";
     case REACH_SIM_REQUEST_T_TOOL:
     case REACH_SIM_REQUEST_T_RESET:
     case REACH_SIM_REQUEST_T_PAUSE:
@@ -68,6 +70,8 @@ void Session::carry_out(const reach_sim_request_t &request)
         control_.speed = request.value;
     else if (request.kind == REACH_SIM_REQUEST_T_RUN_UNTIL)
         control_.until = request.until;
+    else if (request.kind == REACH_SIM_REQUEST_T_VIEW)
+        looks_on_ = request.value != 0;
     else if (request.kind == REACH_SIM_REQUEST_T_QUIT)
         control_.quit = true;
     request_seq_ = request.seq;
@@ -149,7 +153,7 @@ void Session::step(int64_t release)
     simulation_.step();
     if (eyes_ && Exposures::at_step(simulation_.steps()))
         expose(release);
-    if (onlooker_ && simulation_.elapsed() % between_looks == 0)
+    if (onlooker_ && looks_on_ && simulation_.elapsed() % between_looks == 0)
         onlooker_->look(simulation_.snapshot(simulation_.elapsed() / between_looks), now());
 }
 

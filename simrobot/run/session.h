@@ -115,6 +115,7 @@ private:
     DaemonWatch daemon_watch_;
     EyeThread *eyes_;
     Onlooker *onlooker_ = nullptr;
+    bool looks_on_ = true;
     ClockControl control_;
     bool send_truth_;
     bool send_effector_;

@@ -28,7 +28,7 @@ const struct option_row robot_rows[] = {
      "blank", nullptr},
     {"robot.head_joints", OPTION_NAMES, AT(head_joints), nullptr, "", 0, 0,
      "names of the head's joints: yaw (positive to the left), then pitch (positive down); empty = "
-     "no head", nullptr},
+     "no head, or eyes that do not turn", nullptr},
     {"robot.hand_link", OPTION_TEXT, AT(hand_link), nullptr, nullptr, 0, 0,
      "link at whose origin the ball sits and the tools begin", nullptr},
     {"robot.left_eye", OPTION_TEXT, AT(left_eye), nullptr, "", 0, 0,

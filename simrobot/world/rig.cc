@@ -101,11 +101,13 @@ private:
     {
         if (!config_.left_eye[0] && !config_.right_eye[0] && n_head == 0)
             return;
-        if (!config_.left_eye[0] || !config_.right_eye[0] || n_head != 2) {
-            fault("robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints");
+        if (!config_.left_eye[0] || !config_.right_eye[0] || (n_head != 0 && n_head != 2)) {
+            fault("robot: eyes need robot.left_eye, robot.right_eye and two robot.head_joints, or "
+                  "none for eyes that do not turn");
             return;
         }
         rig_->has_eyes = true;
+        rig_->has_head = n_head > 0;
         find_link(config_.left_eye, &rig_->left_eye);
         find_link(config_.right_eye, &rig_->right_eye);
     }

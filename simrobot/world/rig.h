@@ -18,7 +18,8 @@ struct Rig {
     std::vector<double> start;      /* rad, in the order of `joints`; within their limits */
     std::vector<std::string> notes; /* what was mended, guessed or left out, a line each */
     LinkFrame hand;
-    bool has_eyes; /* two head joints and two eyes are named */
+    bool has_eyes; /* two eyes are named, */
+    bool has_head; /* and two joints that turn them */
     LinkFrame left_eye, right_eye;
     double focal_length; /* px */
     int width, height;   /* px */
@@ -62,7 +63,8 @@ Eigen::Isometry3d rig_link(const LinkFrame &link, const std::vector<Eigen::Isome
 Projection rig_project(const Rig &rig, const Eigen::Isometry3d &left_eye,
                        const Eigen::Isometry3d &right_eye, const Eigen::Vector3d &point);
 
-/* Solves for the head that fixates `point`, by Newton's method from the head straight ahead. */
+/* Solves for the head that fixates `point`, by Newton's method from the head straight ahead. The
+ * rig has a head. */
 Fixation rig_fixate(const Rig &rig, const Eigen::Vector3d &point);
 
 } // namespace sim

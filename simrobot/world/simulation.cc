@@ -140,7 +140,8 @@ Truth Simulation::truth() const
                     std::fabs(p.u_left) < rig_.width / 2.0;
     truth.visible =
         visibility_of_ball(shapes(poses), right.translation(), truth.ball, config_.ball_radius);
-    truth.fixation = rig_fixate(rig_, truth.ball);
+    if (rig_.has_head)
+        truth.fixation = rig_fixate(rig_, truth.ball);
     return truth;
 }
 

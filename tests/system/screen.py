@@ -16,14 +16,17 @@ ENLARGED = 4  # tesseract wants letters of some 30 pixels
 
 
 class Screen:
-    """A context: Xvfb on a display of its own, ended on leaving."""
+    """A context: Xvfb on a display of its own, ended on leaving. `composite`: windows deeper than
+    the screen, such as Rerun's, are kept beside it, and stay black where no compositor puts them on
+    it, as a desktop does."""
 
-    def __init__(self, width: int, height: int):
+    def __init__(self, width: int, height: int, composite: bool = True):
         self._folder = tempfile.TemporaryDirectory()
         number, told = os.pipe()
         self._server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(told), "-screen", "0", f"{width}x{height}x24",
-             "-nolisten", "tcp", "-nocursor", "-fbdir", self._folder.name],
+             "-nolisten", "tcp", "-nocursor", "-fbdir", self._folder.name,
+             *([] if composite else ["-extension", "Composite"])],
             pass_fds=[told], stderr=subprocess.DEVNULL,
         )  # fmt: skip
         os.close(told)

@@ -41,6 +41,11 @@ class Demo(unittest.TestCase):
             self.assertIn(str(self.out / name), self.run_result.stdout)
             self.assertGreater((self.out / name).stat().st_size, 500)
 
+    def test_a_video_and_figures_to_print(self):
+        self.assertGreater((self.out / "demo.mp4").stat().st_size, 200_000)
+        self.assertIn("demo.mp4", self.run_result.stdout)
+        self.assertEqual(len(list((self.out / "figures").glob("*.pdf"))), 5)
+
     def test_a_recording_for_the_viewer_or_how_to_get_it(self):
         written = (self.out / "run.rrd").exists()
         self.assertEqual(written, find_spec("rerun") is not None)

@@ -12,10 +12,10 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from .command_line import Parser
-from .figures import COLOURS, PAPER
-from .programs import BINARIES, ROOT
+from .figures import LEARNERS, PAPER
+from .programs import BINARIES, OURS, ROOT
 
-RIVALS = ("ours", "textbook", "lwpr")
+STYLES = {"ours": LEARNERS[OURS], "textbook": LEARNERS["linear"], "lwpr": LEARNERS["lwpr"]}
 LIMIT = 1000  # us that a call may take
 
 
@@ -51,25 +51,25 @@ def table(rows: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _curve(axis, rows: list[dict], who: str, colour: str) -> None:
+def _curve(axis, rows: list[dict], who: str) -> None:
     known = [row for row in rows if row[f"{who}_us"]]
     experts = [row["experts"] for row in known]
     name = {"ours": "ours", "textbook": "textbook", "lwpr": "LWPR, with its own fields"}[who]
-    for key, style, share in (("p50", "o-", "median"), ("p999", "^--", "99.9 %")):
+    for key, line, share in (("p50", "-", "median"), ("p999", "--", "99.9 %")):
         values = [row[f"{who}_us"][key] for row in known]
-        axis.plot(experts, values, style, color=colour, markersize=4, label=f"{name}, {share}")
+        axis.plot(experts, values, line, ms=4, label=f"{name}, {share}", **STYLES[who])
 
 
 def _panel(axis, rows: list[dict], call: str, d: int) -> None:
     experts = [row["experts"] for row in rows]
-    for who, colour in zip(RIVALS, (COLOURS["hand"], COLOURS["tool"], "#3c8040"), strict=True):
+    for who in STYLES:
         if any(row[f"{who}_us"] for row in rows):
-            _curve(axis, rows, who, colour)
+            _curve(axis, rows, who)
     axis.plot(experts, [row["stream_us"] for row in rows], ":", color=PAPER,
               label="reading the experts once")  # fmt: skip
     axis.axhline(LIMIT, color="#b02020", lw=0.8, label="limit: 1 ms")
     axis.set(xscale="log", yscale="log", ylim=(2, 1e5), title=f"{call}, d = {d}, D = 3",
-             xlabel="experts", ylabel="µs")  # fmt: skip
+             xlabel="experts", ylabel="time of a call, µs")  # fmt: skip
     axis.set_xticks(experts, [str(n) for n in experts])
     axis.minorticks_off()
 

@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import metrics, pictures, recording, report, run_folder, summary
+from . import film, metrics, pictures, recording, report, run_folder, summary
 from .bus import Bus, NoAnswerError
 from .command_line import Parser
 from .experiment import Experiment, ExperimentError
@@ -70,7 +70,9 @@ def perform(experiment: Experiment, bus: Bus, clock, options: argparse.Namespace
     experiment.babble("learn_tool", options.tool_samples, base + 3, learn=True)
     experiment.babble("test_tool", tests, base + 4, learn=False)
     pictures.take(bus, clock, options.out, "tool")
+    clock.begin("a STAR with the rubber tube")
     experiment.star("star_tool", targets, options.period)
+    clock.end()
     experiment.take_tool(0)
     experiment.star("star_hand", targets, options.period)
     # The same configurations as test_hand: has learning the tool cost the hand anything?
@@ -91,7 +93,10 @@ def run(options: argparse.Namespace, phases: list[dict]) -> None:
     with session(
         options.out, Stop(), seed=options.seed, configurations=learner,
         realtime=options.realtime, channels=".*" if options.keep_images else ALL_BUT_IMAGES,
+        simrobot=("--view",),
     ) as (bus, clock):  # fmt: skip
+        clock = film.FilmedClock(clock, bus, options.out / "demo.mp4")
+        clock.rest()
         experiment = Experiment(bus, clock, Progress(weights(options)), phases)
         perform(experiment, bus, clock, options)
 
@@ -99,7 +104,7 @@ def run(options: argparse.Namespace, phases: list[dict]) -> None:
 def prepare_folder(out: Path) -> None:
     """Old results must not be taken for those of this run."""
     run_folder.set_log_aside(out)
-    for name in ("run.json", "summary.json", "report.html", "run.rrd"):
+    for name in ("run.json", "summary.json", "report.html", "run.rrd", "demo.mp4"):
         (out / name).unlink(missing_ok=True)
     shutil.rmtree(out / "images", ignore_errors=True)
 

@@ -132,6 +132,9 @@ class Experiment:
             if in_metres:
                 x, y, z = 1e3 * metrics.rmse(predicted, measured)
                 return f"{text}, error {x:.1f} {y:.1f} {z:.1f} mm"
+            if status.space == reach.status_t.FIXED:
+                u, v, disparity = metrics.rmse(predicted, measured)
+                return f"{text}, error {u:.1f} {v:.1f} {disparity:.1f} px"
             yaw, pitch, disparity = metrics.rmse(*map(metrics.to_people, (predicted, measured)))
             return f"{text}, error {yaw:.2f} deg {pitch:.2f} deg {disparity:.1f} px"
         return text

@@ -12,18 +12,23 @@ from . import metrics, summary
 from .programs import OURS
 from .record import Record
 
-COLOURS = {"hand": "#1f5fa8", "tool": "#b8500f"}
-# Dashes tell them apart without colour.
+# What is drawn has a lightness and a marker of its own, so that it is told apart in grey. Line
+# styles are for quantiles.
+COLOURS = {"hand": "#123f7a", "tool": "#e08214"}  # lightness 27 and 63 of 100
+MARKERS = {"hand": "o", "tool": "^"}
 LEARNERS = {
-    OURS: {"color": "#1f5fa8", "ls": "-"},
-    "polynomial": {"color": "#b06a00", "ls": "-."},
-    "linear": {"color": "#2f8f5b", "ls": "--"},
-    "lwpr": {"color": "#b3261e", "ls": ":"},
+    OURS: {"color": "#0b2f5c", "marker": "o"},  # lightness 20
+    "polynomial": {"color": "#a85a00", "marker": "s"},  # 46
+    "linear": {"color": "#4fa877", "marker": "^"},  # 63
+    "lwpr": {"color": "#e8a0a0", "marker": "D"},  # 74
 }
+_SERIES = (("#0b2f5c", "o"), ("#a85a00", "s"), ("#4fa877", "^"),
+           ("#d0669c", "D"), ("#7a7a7a", "v"), ("#c8b400", "x"))  # fmt: skip
 PAPER = "#777777"
 COMPONENTS = ("yaw, deg", "pitch, deg", "disparity, px")
 JOINTS = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow", "neck yaw", "neck pitch")
 WINDOWS = 3, 10  # samples of the running error: a tenth of a phase's, within these bounds
+SPARSE = {"markevery": 0.09, "markersize": 4}  # markers of curves with many points: of the diagonal
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 10,
@@ -36,9 +41,16 @@ STYLE = {
     "grid.linewidth": 0.6,
     "legend.frameon": False,
     "lines.linewidth": 1.3,
+    "axes.formatter.min_exponent": 4,  # 0.1 and 100, not powers of ten
     "svg.hashsalt": "reach",
 }
 matplotlib.rcParams.update(STYLE)
+
+
+def series(number: int) -> dict:
+    """How the curve of this number is drawn where some share an axis, as joints do."""
+    colour, marker = _SERIES[number % len(_SERIES)]
+    return {"color": colour, "marker": marker, **SPARSE}
 
 
 def canvas(rows: int = 1, columns: int = 1, height: float = 3.2, **options):
@@ -104,16 +116,18 @@ def learning(record: Record, run: dict, result: dict) -> Figure:
         running = metrics.running_rms(error, window(len(rows)))
         for component, axis in enumerate(axes[:, 0]):
             colour = COLOURS[name]
-            axis.plot(numbers, np.abs(error[:, component]), ".", color=colour, alpha=0.35, ms=3)
-            axis.plot(numbers, running[:, component], color=colour, label=f"{name}, learning")
-            axis.plot(last, result["babbling"][name]["rmse"][component], "D", color=colour, ms=6,
-                      mec="white", label=f"{name}, test set")  # fmt: skip
+            axis.plot(numbers, np.abs(error[:, component]), MARKERS[name], color=colour,
+                      alpha=0.35, ms=3, mew=0)  # fmt: skip
+            axis.plot(numbers, running[:, component], color=colour, marker=MARKERS[name],
+                      label=f"{name}, learning", **SPARSE)  # fmt: skip
+            axis.plot(last, result["babbling"][name]["rmse"][component], "D", color=colour, ms=7,
+                      mec="#222222", label=f"{name}, test set")  # fmt: skip
             axis.plot([first, last], [metrics.PAPER_RMSE_PCT[name][component] / 100
                       * result["babbling"]["range"][component]] * 2, "--", color=PAPER,
                       label="the paper's percentage" if name == "hand" else None)  # fmt: skip
         first = last
     for axis, component in zip(axes[:, 0], COMPONENTS, strict=True):
-        axis.set(ylabel=component, yscale="log")
+        axis.set(ylabel=f"error of {component}", yscale="log")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside upper center")
     axes[2, 0].set_xlabel("training samples")
     return figure
@@ -156,14 +170,15 @@ def star_series(record: Record, run: dict) -> Figure:
             axes[0, column].plot((times - begin) * 1e-6, error, color=COLOURS[name])
         rows = record.between("ROBOT_STATE", begin, segments[-1][1])
         angles = np.degrees(rows["position"][:, : len(JOINTS)])
-        for angle, joint in zip(angles.T, JOINTS, strict=True):
-            axes[1, column].plot((rows["utime"] - begin) * 1e-6, angle - angle[0], label=joint)
+        for number, (angle, joint) in enumerate(zip(angles.T, JOINTS, strict=True)):
+            axes[1, column].plot((rows["utime"] - begin) * 1e-6, angle - angle[0], label=joint,
+                                 **series(number))  # fmt: skip
         axes[0, column].set(title=name, yscale="log")
         axes[0, column].axhline(5, color=PAPER, ls="--", lw=1)
         axes[1, column].set_xlabel("time, s")
     axes[0, 0].set_ylabel("true error, px")
     axes[1, 0].set_ylabel("joints from their start, deg")
-    axes[1, 1].legend(fontsize=7, ncols=2)
+    figure.legend(*axes[1, 1].get_legend_handles_labels(), ncols=6, loc="outside lower center")
     return figure
 
 
@@ -177,6 +192,6 @@ def times(record: Record) -> Figure:
         if len(values):
             edges = np.geomspace(values.min() * 0.9, values.max() * 1.1, 60)
             axis.hist(values, edges, color="#5c5c5c")
-        axis.set(title=title, xscale="log", yscale="log", xlabel="processor time, us")
+        axis.set(title=title, xscale="log", yscale="log", xlabel="processor time, µs")
     axes[0, 0].set_ylabel("how often")
     return figure

@@ -111,8 +111,8 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
     add("--seed", type=int, default=1,
         help="random seed of the simulated world; default %(default)s")  # fmt: skip
     add("--config", default="kobian", metavar="DIR",
-        help="another robot: icub, sixaxis, a folder with reachd.yaml and simrobot.yaml, or a URDF;"
-        " default %(default)s")  # fmt: skip
+        help="another robot: icub, sixaxis, watched, a folder with reachd.yaml and simrobot.yaml,"
+        " or a URDF; default %(default)s")  # fmt: skip
     add("--lockstep", action="store_true",
         help="no real time: the programs wait for each other")  # fmt: skip
     add("--do", action="append", default=[], metavar="COMMAND",

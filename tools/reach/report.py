@@ -1,6 +1,7 @@
 """report.html: the run's figures beside the paper's numbers, in one file that opens from disk."""
 
 import html
+import re
 from pathlib import Path
 
 from . import figures, metrics, page
@@ -11,7 +12,7 @@ _RMSE_FACTOR = 1.5  # of the paper's percentages
 
 
 def write(out: Path, record: Record, run: dict, result: dict) -> None:
-    parts = ["<h2>What came out</h2>", _table(_rows(result)), _NOTES]
+    parts = ["<h2>What came out</h2>", _errors(result), _table(_rows(result)), _NOTES]
     shown = [
         ("What the eyes see", figures.eyes(out / "images"), _EYES),
         ("Learning", figures.learning(record, run, result), _LEARNING),
@@ -19,9 +20,13 @@ def write(out: Path, record: Record, run: dict, result: dict) -> None:
         ("Reaching in time", figures.star_series(record, run), _SERIES),
         ("What it costs", figures.times(record), _TIMES),
     ]
+    drawn = out / "figures"
+    drawn.mkdir(exist_ok=True)
     for title, figure, caption in shown:
         if figure is not None:
             parts += [f"<h2>{title}</h2>", page.embed(figure, caption, title)]
+            name = re.sub(r"\W+", "-", title.lower())
+            figure.savefig(drawn / f"{name}.pdf", metadata={"CreationDate": None})
     parts += ["<h2>The run</h2>", _phases(run)]
     title = "A robot learns its arm, a rubber tube, and reaches with both"
     subtitle = (
@@ -45,7 +50,7 @@ def five_lines(out: Path, record: Record, result: dict) -> list[str]:
         for name in ("hand", "tool")
     )
     return [
-        f"report   {out / 'report.html'}: open it in a browser",
+        f"report   {out / 'report.html'}: open it in a browser; video {out / 'demo.mp4'}",
         f"summary  {out / 'summary.json'}: test errors hand {_list(hand['rmse_pct'])} %, tool"
         f" {_list(tool['rmse_pct'])} % of range (yaw, pitch, disparity)",
         f"log      {out / 'run.lcmlog'}: {result['robot_seconds']:.0f} s of robot time,"
@@ -61,7 +66,13 @@ def _list(values) -> str:
     return "[" + " ".join("-" if v is None else f"{v:.2g}" for v in values) + "]"
 
 
-def _babbling_rows(babbling: dict) -> list[tuple]:
+_COMPONENTS = ("yaw", "pitch", "disparity")
+
+
+def _errors(result: dict) -> str:
+    """Errors of predictions on unseen configurations, a column for each component."""
+    babbling = result["babbling"]
+    units, shares = ("deg", "deg", "px"), ("%",) * 3
     rows = []
     for name in ("hand", "tool"):
         ours, paper = babbling[name], metrics.PAPER_RMSE_PCT[name]
@@ -69,15 +80,28 @@ def _babbling_rows(babbling: dict) -> list[tuple]:
             a <= _RMSE_FACTOR * b + 1e-9 for a, b in zip(ours["rmse_pct"], paper, strict=True)
         )
         rows += [
-            (f"test error, {name}, % of range [yaw pitch disparity]", _list(paper),
-             _list(ours["rmse_pct"]), met),
-            (f"test error, {name}, [deg deg px]", _list(metrics.PAPER_RMSE[name]),
-             _list(ours["rmse"]), None),
-            (f"test error against the truth, {name}, [deg deg px]", "", _list(ours["rmse_true"]),
-             None),
-        ]  # fmt: skip
-    again = _list(babbling["hand"]["final"]["rmse_pct"])
-    return [*rows, ("hand again, after the tool, % of range", "no degradation", again, None)]
+            (f"{name}, of the range", ours["rmse_pct"], paper, shares, met),
+            (name, ours["rmse"], metrics.PAPER_RMSE[name], units, None),
+            (f"{name}, against the truth", ours["rmse_true"], None, units, None),
+        ]
+    again = babbling["hand"]["final"]["rmse_pct"]
+    rows.append(("hand again, after the tool, of the range", again, None, shares, None))
+    if result["body"]:
+        rest = result["body"]["not_rigid"]
+        what = "motion that no rigid chain explains, with the tool of the last search"
+        rows.append((what, rest, None, units, None))
+    heads = ("test error", *_COMPONENTS, *(f"paper: {name}" for name in _COMPONENTS), "aim")
+    cells = [
+        (html.escape(what), *_cells(ours, units), *_cells(paper or (None,) * 3, units),
+         page.mark(met))
+        for what, ours, paper, units, met in rows
+    ]  # fmt: skip
+    return page.table(heads, cells)
+
+
+def _cells(values, units) -> list[str]:
+    return ["" if value is None else f"{value:.2g} {unit}"
+            for value, unit in zip(values, units, strict=True)]  # fmt: skip
 
 
 def _star_rows(star: dict) -> list[tuple]:
@@ -96,18 +120,16 @@ def _star_rows(star: dict) -> list[tuple]:
 
 def _rows(result: dict) -> list[tuple]:
     """(what, the paper's, ours, met or None)."""
-    marker, wall, found = result["marker_error_px"], result["wall"], result["body"]
-    spread = _list(marker[key] for key in ("std_u", "std_v", "std_d"))
+    wall, found = result["wall"], result["body"]
     wrong = result["wrong_frames"] / max(1, result["frames"])
     return [
-        *_babbling_rows(result["babbling"]),
         *_star_rows(result["star"]),
         ("body: samples it was found from; error, of the noise; searches", "", _body(found), None),
-        ("motion that no rigid chain explains, with the tool of the last search, [deg deg px]", "",
-         _list(found["not_rigid"]) if found else "-", None),
         ("experts; contexts told apart; solutions on average", "", f"{result['experts']};"
          f" {result['contexts']}; {result['solutions_mean']:.2f}", None),
-        ("vision's error, standard deviation of [u v disparity], px", "about 2", spread, None),
+        *((f"vision's error of {what}, standard deviation, px", "about 2",
+           f"{result['marker_error_px'][key]:.2g}", None)
+          for what, key in (("u", "std_u"), ("v", "std_v"), ("disparity", "std_d"))),
         ("frames: all / ball missed / wrong", "",
          f"{result['frames']} / {result['missed_frames']} / {result['wrong_frames']}",
          wrong < 0.001),

@@ -9,7 +9,7 @@ from .messages import ROOT
 from .new_robot import choices, files
 from .new_robot.urdf import Arm, UnusableError, Urdf
 
-OURS = ("kobian", "icub", "sixaxis")
+OURS = ("kobian", "icub", "sixaxis", "watched")
 
 
 class RobotError(Exception):

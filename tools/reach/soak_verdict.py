@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .figures import PAPER, canvas
+from .figures import PAPER, canvas, series
 
 HABITS = ("learn", "learn", "tool", "reach")
 FEWEST_ROWS = 6  # looks at the robot that a verdict needs
@@ -72,10 +72,11 @@ def draw(seen: dict, path: Path) -> None:
         return
     figure, axes = canvas(3, 1, 6.5, sharex=True)
     hours = [row["robot_s"] / 3600 for row in rows]
-    for name in rows[-1]["memory_kb"]:
-        axes[0, 0].plot(hours, [row["memory_kb"].get(name, 0) / 1024 for row in rows], label=name)
+    for number, name in enumerate(rows[-1]["memory_kb"]):
+        axes[0, 0].plot(hours, [row["memory_kb"].get(name, 0) / 1024 for row in rows], label=name,
+                        **series(number))  # fmt: skip
     axes[0, 0].set(ylabel="memory, MB", ylim=(0, None))
-    axes[0, 0].legend(ncols=3)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside upper center")
     axes[1, 0].plot(hours, [row["experts"] for row in rows])
     axes[1, 0].set(ylabel="experts", ylim=(0, None))
     axes[2, 0].semilogy(hours, errors_pct(rows))

@@ -107,8 +107,8 @@ def blueprint(robot: str, root: str | None, images: bool = True) -> "rrb.Bluepri
         contents=["/**", "- /eyes/**", "- /plots/**", f"- /{robot}/collision_geometries/**"],
         spatial_information=rrb.SpatialInformation(target_frame=root) if root else None,
     )  # fmt: skip
-    titles = {"error": "distance to the target [px or m]", "experts": "experts",
-              "solutions": "solutions of the prediction", "compute_us": "tick [us]"}  # fmt: skip
+    titles = {"error": "distance to the target, px or m", "experts": "experts",
+              "solutions": "solutions of the prediction", "compute_us": "tick, µs"}  # fmt: skip
     plots = [rrb.TimeSeriesView(origin=f"plots/{name}", name=title)
              for name, title in titles.items()]  # fmt: skip
     plots.append(rrb.TextLogView(origin="body", name="body"))

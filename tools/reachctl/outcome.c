@@ -69,7 +69,7 @@ bool outcome_doubtful(const reach_status_t *status, const reach_request_t *reque
                 target[0], target[1], target[2]);
             return true;
         }
-        if (status->space == REACH_STATUS_T_VISUAL &&
+        if (status->space != REACH_STATUS_T_CARTESIAN &&
             (fabs(target[0]) > far_u || fabs(target[1]) > far_v)) {
             snprintf(why, why_size,
                      "(%g, %g) px is outside of the right image, if that is of 640 x 480 px",

@@ -13,8 +13,8 @@ static bool misses(const struct senses *senses, const double *target)
 
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
         sum += pow(target[row] - senses->sight->carried[row], 2);
-    return sqrt(sum) > (config->space.fixates ? config->practice_tolerance
-                                              : config->practice_tolerance_position);
+    return sqrt(sum) > (config->space.kind == SPACE_CARTESIAN ? config->practice_tolerance_position
+                                                              : config->practice_tolerance);
 }
 
 static int missed_of_late(unsigned missed)

@@ -1,5 +1,7 @@
 /* The shipped configuration, and what is refused although each option alone is in range. */
+#include "daemon/config/defaults.h"
 #include "daemon/config/load.h"
+#include "daemon/config/reloadable.h"
 #include "daemon/config/table.h"
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
@@ -55,18 +57,93 @@ static int options_named(const char *name)
     return leaves;
 }
 
-/* The robot's file all of them, but for those of what is off without a file of its own. */
+/* The robot's file all of them, but for those of what is off without a file of its own, and for
+ * what follows from the robot. */
 START_TEST(the_shipped_configuration_names_every_option)
 {
-    int rows = 0, optional = 0;
+    int rows = 0, optional = 0, derived = 0;
 
     for (const struct option_row *row = config_table(); row->name; row++) {
         rows++;
         optional += strncmp(row->name, "practice.", strlen("practice.")) == 0;
+        derived += config_default_reason(row->name) != NULL;
     }
     /* Unknown and doubled names are refused, so as many leaves as rows means all of them. */
     ck_assert_int_eq(options_named("practice.yaml"), optional);
-    ck_assert_int_eq(options_named("kobian.yaml") + optional, rows);
+    ck_assert_int_eq(options_named("kobian.yaml") + optional + derived, rows);
+}
+END_TEST
+
+/* As they were found for each robot by itself (docs/learner.md), to the bit. */
+START_TEST(what_follows_from_the_robot_is_what_was_found)
+{
+    struct config kobian = fixture_config(NULL, 0);
+    struct config icub = fixture_robot_config("icub.yaml");
+    const double middle[] = {-40, 40, 40, 50, 0, 0, 10};
+
+    ck_assert_double_eq(kobian.learner.hyper_sigma, 8);
+    ck_assert_double_eq(kobian.learner.prior_sigma, 16);
+    ck_assert_double_eq(kobian.learner.p0, 0.001);
+    ck_assert_double_eq(kobian.task_damping_max, 0.05);
+    ck_assert_int_eq(kobian.learner.degree, 3);
+    ck_assert_double_eq(kobian.learner_reference.value[1], -17.5 * (M_PI / 180));
+    ck_assert_double_eq(icub.learner.hyper_sigma, 14);
+    ck_assert_double_eq(icub.learner.prior_sigma, 128);
+    ck_assert_double_eq(icub.learner.p0, 0.1);
+    ck_assert_double_eq(icub.task_damping_max, 0.2);
+    ck_assert_int_eq(icub.learner.degree, 4);
+    ck_assert_int_eq(icub.learner_reference.n, 7);
+    for (int i = 0; i < 7; i++)
+        ck_assert_double_eq(icub.learner_reference.value[i], middle[i] * (M_PI / 180));
+}
+END_TEST
+
+START_TEST(what_is_named_holds_before_what_follows)
+{
+    const char *const overrides[] = {"learner.hyper_sigma=5", "learner.reference=[-60,-10,0,-60]"};
+    struct config config = fixture_config(overrides, 2);
+
+    ck_assert_double_eq(config.learner.hyper_sigma, 5);
+    ck_assert_double_eq(config.learner_reference.value[1], -10 * (M_PI / 180));
+    ck_assert_double_eq(config.learner.prior_sigma, 16);
+}
+END_TEST
+
+/* The learner was made about the middle that held at the start. */
+START_TEST(a_range_of_babbling_that_is_read_again_leaves_the_middle)
+{
+    struct config first = fixture_config(NULL, 0), again;
+    const char *const overrides[] = {"babble.max=[-50,-5,15,-40]"};
+    const char *path;
+    char name[512], error[512];
+    int changes;
+
+    snprintf(name, sizeof name, "%s/etc/kobian.yaml", getenv("REACH_SOURCE_DIR"));
+    path = name;
+    ck_assert_int_eq(config_load_again(&again, &first, &path, 1, overrides, 1, error, sizeof error),
+                     0);
+    ck_assert_msg(config_reloadable(&first, &again, &changes, error, sizeof error), "%s", error);
+    ck_assert_int_eq(changes, 1);
+}
+END_TEST
+
+/* A small file for an arm of one's own stays small. */
+START_TEST(cameras_that_nobody_turns_need_few_numbers)
+{
+    char name[512], error[512] = "";
+    const char *path = name, *overrides[] = {"learner.experts=body"};
+    struct config config;
+
+    snprintf(name, sizeof name, "%s/etc/watched.yaml", getenv("REACH_SOURCE_DIR"));
+    ck_assert_int_eq(config_load(&config, &path, 1, overrides, 1, error, sizeof error), -1);
+    ck_assert_msg(strstr(error, "learner.experts must be polynomial") != NULL, "%s", error);
+    config = fixture_robot_config("watched.yaml");
+    ck_assert_int_eq(config.space.kind, SPACE_FIXED);
+    ck_assert_int_eq(config_head_joints(&config), 0);
+    ck_assert_double_eq(config.space.unit[0], 1);
+    ck_assert_double_eq_tol(config.space.scale[0], 400 * M_PI / 18, 1e-9);
+    ck_assert_double_eq_tol(config.space.noise[1], 400 * M_PI / 360, 1e-9);
+    ck_assert_double_eq(config.space.noise[2], 3);
 }
 END_TEST
 
@@ -151,6 +228,7 @@ START_TEST(what_does_not_fit_together_is_refused)
     refuses("safety.state_suspend=0.01", "state_suspend");
     refuses("head.search_velocity=100", "head.search_velocity");
     refuses("learner.reference=[0]", "learner.reference");
+    refuses("task.space=fixed", "only the visual task space has a head");
     refuses("learner.reach=nonsense", "not a number");
     refuses("learner.capacity=1025", "one tick can touch");
     refuses("learner.alpha=0.5", "learner.alpha: 0.5 is out of range 0.9 .. 1");
@@ -163,6 +241,10 @@ int main(void)
 {
     const TTest *const tests[] = {the_shipped_configuration_is_the_paper_s_robot,
                                   the_shipped_configuration_names_every_option,
+                                  what_follows_from_the_robot_is_what_was_found,
+                                  what_is_named_holds_before_what_follows,
+                                  a_range_of_babbling_that_is_read_again_leaves_the_middle,
+                                  cameras_that_nobody_turns_need_few_numbers,
                                   the_file_of_practice_fits,
                                   the_learners_files_of_the_icub_like_robot_fit,
                                   the_file_of_receptive_fields_fits,

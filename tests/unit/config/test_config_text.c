@@ -4,7 +4,10 @@
 #include "tests/unit/control/fixture.h"
 #include "tests/unit/suite.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void must_come_back(const struct config *config)
 {
@@ -18,7 +21,8 @@ static void must_come_back(const struct config *config)
 
 START_TEST(every_robot_comes_back)
 {
-    static const char *const robots[] = {"kobian.yaml", "icub.yaml", "sixaxis.yaml"};
+    static const char *const robots[] = {"kobian.yaml", "icub.yaml", "sixaxis.yaml",
+                                         "watched.yaml"};
 
     for (size_t i = 0; i < sizeof robots / sizeof robots[0]; i++) {
         struct config config = fixture_robot_config(robots[i]);
@@ -45,6 +49,24 @@ START_TEST(odd_numbers_and_words_come_back_to_the_last_bit)
 }
 END_TEST
 
+/* What --check-config prints can be a configuration itself. */
+START_TEST(what_is_printed_can_be_read)
+{
+    const char *overrides[] = {"model.directory='it''s: here #1'", "learner.p0=0.2"};
+    struct config config = fixture_config(overrides, 2), again;
+    char path[] = "/tmp/reach_config_XXXXXX", error[512] = "";
+    const char *paths[] = {path};
+    FILE *file = fdopen(mkstemp(path), "w");
+
+    ck_assert_ptr_nonnull(file);
+    config_print(&config, file);
+    fclose(file);
+    ck_assert_msg(config_load(&again, paths, 1, NULL, 0, error, sizeof error) == 0, "%s", error);
+    unlink(path);
+    ck_assert_mem_eq(&config, &again, sizeof again);
+}
+END_TEST
+
 START_TEST(another_configuration_has_another_checksum)
 {
     const char *overrides[] = {"task.gain=2.0000000001"};
@@ -57,9 +79,9 @@ END_TEST
 
 int main(void)
 {
-    const TTest *const tests[] = {every_robot_comes_back,
-                                  odd_numbers_and_words_come_back_to_the_last_bit,
-                                  another_configuration_has_another_checksum};
+    const TTest *const tests[] = {
+        every_robot_comes_back, odd_numbers_and_words_come_back_to_the_last_bit,
+        what_is_printed_can_be_read, another_configuration_has_another_checksum};
 
     return SUITE_RUN("config_text", tests);
 }

@@ -185,8 +185,8 @@ START_TEST(test_bad_requests_are_not_acknowledged)
         return !partner.acknowledged(seq, 100);
     };
 
-    ck_assert(refused(8, 0, 0));
-    ck_assert(refused(-1, 0, 0));
+    ck_assert(refused(REACH_SIM_REQUEST_T_VIEW, 0, 1)); /* nobody looks on */
+    ck_assert(refused(-1, 0, 0) && refused(99, 0, 0));
     ck_assert(refused(REACH_SIM_REQUEST_T_TOOL, 3, 0));
     ck_assert(refused(REACH_SIM_REQUEST_T_TOOL, -1, 0));
     ck_assert(refused(REACH_SIM_REQUEST_T_LIGHT, 0, std::nan("")));

@@ -10,11 +10,19 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+from matplotlib.colors import to_rgb
 from reach import accuracy, figures
 from reach.curves import gazing_arm, picture, study
 from reach.curves.gazing_arm import GazingArm, rotation
 
 ONE_TOOL = {"HAND": (10, 30), "TUBE": (1, 10), "LEARNERS": ("body", "linear")}
+
+
+def lightness(colour: str) -> float:
+    """L* of CIELAB, 0 .. 100: what is left in grey."""
+    channels = np.array(to_rgb(colour))
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return float(116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16)
 
 
 class Robot(unittest.TestCase):
@@ -92,10 +100,14 @@ class Picture(unittest.TestCase):
             self.assertIn(wanted, words)
 
     def test_curves_differ_without_colour(self):
-        self.assertEqual(set(picture.MARKERS), set(figures.LEARNERS), set(picture.WORDS))
-        self.assertEqual(len(set(picture.MARKERS.values())), len(picture.MARKERS))
-        dashes = {style["ls"] for style in figures.LEARNERS.values()}
-        self.assertEqual(len(dashes), len(figures.LEARNERS))
+        """Each learner has a marker and a lightness of its own; line styles are for quantiles."""
+        self.assertEqual(set(figures.LEARNERS), set(picture.WORDS))
+        styles = figures.LEARNERS.values()
+        self.assertEqual(len({style["marker"] for style in styles}), len(styles))
+        grey = sorted(lightness(style["color"]) for style in styles)
+        self.assertGreater(min(np.diff(grey)), 8, grey)
+        hand, tool = (lightness(colour) for colour in figures.COLOURS.values())
+        self.assertGreater(abs(hand - tool), 25)
 
     def test_it_does_not_go_with_studies(self):
         with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):

@@ -75,6 +75,10 @@ class Report(unittest.TestCase):
         self.assertEqual(checker.open, [])
         self.assertEqual(page.count("data:image/png;base64,"), 5)
         self.assertNotIn("http://", page)
+        self.assertIn("<th>yaw</th><th>pitch</th><th>disparity</th>", page)
+        self.assertRegex(page, r"<td>hand</td><td>0\.5 deg</td><td>0 deg</td><td>0 px</td>")
+        drawn = {path.stem for path in (self.out / "figures").glob("*.pdf")}
+        self.assertLessEqual({"learning", "reaching-in-time", "what-it-costs"}, drawn)
         self.assertNotIn("nan", page.split("base64")[0])
 
     def test_five_lines(self):

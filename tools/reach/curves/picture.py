@@ -12,7 +12,6 @@ from .study import HAND, LEARNERS, TUBE
 
 WORDS = {OURS: "reachd, on the body that it finds", "polynomial": "reachd with polynomials",
          "linear": "IMLE as published", "lwpr": "LWPR"}  # fmt: skip
-MARKERS = {OURS: "o", "polynomial": "s", "linear": "^", "lwpr": "x"}
 PANELS = (("hand", "hand", "samples with the hand", HAND),
           ("tube", "tool", "samples with a flexible tube, after those", TUBE))  # fmt: skip
 PAPER_SAMPLES = 500  # of each, in the paper
@@ -27,7 +26,7 @@ def _panel(axis, draws: list[dict], name: str, ball: str, label: str, counts) ->
     for learner in LEARNERS:
         rows = curve(draws, learner, name)
         style = figures.LEARNERS[learner]
-        axis.plot(counts, rows.mean(axis=0), marker=MARKERS[learner], ms=4.5,
+        axis.plot(counts, rows.mean(axis=0), ms=4.5,
                   label=WORDS[learner], zorder=3 if learner == OURS else 2, **style)  # fmt: skip
         axis.fill_between(counts, rows.min(axis=0), rows.max(axis=0), color=style["color"],
                           alpha=0.13, lw=0)  # fmt: skip

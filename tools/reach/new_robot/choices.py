@@ -11,8 +11,6 @@ USUAL_SPEED = 60.0  # deg/s, of the safety gate
 USUAL_NOISE = 30.0  # deg/s, of explore.noise
 WIDEST = 360.0  # deg: all that a joint which turns can do
 POSTURES = 500  # for the arm's reach
-# Monomials of degree 4 of so many joints fit into what a tick can touch, of more only those of 3.
-MANY_JOINTS = 7
 
 
 @dataclass(frozen=True)
@@ -61,10 +59,6 @@ class Choices:
     explore_noise: float
     arm_reach: float  # m, half of how far apart the places of its tip lie
     scale_position: float  # m
-
-    @property
-    def degree(self) -> int:
-        return 4 if len(self.ranges) <= MANY_JOINTS else 3
 
 
 def choose(arm: Arm, seed: int = 1) -> Choices:

@@ -64,45 +64,23 @@ safety:
 # Babbling goes anywhere in the range; give babble.min and babble.max to keep it from obstacles.
 babble:
   gain: 6                     # 1/s
-  tolerance: 1                # deg: a sample needs no rest here
 explore:
   noise: {noise:.4g}          # deg/s; at most three quarters of the speed above
 
 task:
   space: cartesian            # x, y, z of link {tip} in the frame of link {base}, m
-  # Two thirds of the arm's reach, {reach:.2f} m: with it the numbers below suit arms of any size.
+  # Two thirds of the arm's reach, {reach:.2f} m: what is scaled by it suits arms of any size.
   # With less the arm gives up places where it is nearly stretched.
   scale_position: {scale}     # m that count as one
-  singular_threshold: 0.2     # 1/rad in scaled rows
-  damping_max: 0.2
-  secondary_gain: 0.2         # rad/s, towards the middle of joints that the place leaves free
 
 learner:
   # The robot finds its own body, a chain of joints, in its first samples (docs/body.md). Nothing of
   # the URDF's lengths is told; `start: FILE.urdf` under body would begin the search with them.
   experts: body
   body:
-    noise_share: 2.5e-3       # of the square of noise_position: 0.5 mm, the noise of a measurement
     order: [{order}]          # the joints from the base to the tip, by number
-  # Until a body is found, and should there be none, polynomials answer. Those of
-  # etc/sixaxis.yaml but for what depends on the number of joints.
-  degree: {degree}{why_degree}
-  capacity: 32
-  noise_position: 0.01        # m
-  reach: 3.16                 # rad
-  reference: [{reference}] # deg, the middle of each range
-  scale: 1.5                  # rad
-  ridge: 1e-5
-  hyper_sigma: {hyper}        # twice the number of joints
-  hyper_psi: .inf
-  prior_sigma: {prior}        # 2 to the power of the number of joints
-  prior_psi: .inf
-  n_outliers: 3
-  p0: 0.1
-  clustering: leader
-  leader_level: 0.9
-  noise_share: 1e-4
-  gamma_floor: 0.05
+  # Until a body is found, and should there be none, polynomials answer. Their numbers follow from
+  # the joints: `reachd --check-config` prints them.
 
 model:
   directory: ""               # where what is learned is kept; empty: nowhere
@@ -133,7 +111,7 @@ def simulator(arm: Arm, choices: Choices, repair_inertia: bool = False) -> str:
 
 
 def daemon(arm: Arm, choices: Choices) -> str:
-    n, deg = len(arm.joints), [(r.lower * r.unit, r.upper * r.unit) for r in choices.ranges]
+    deg = [(r.lower * r.unit, r.upper * r.unit) for r in choices.ranges]
     return _aligned(
         _DAEMON.format(
             robot=arm.urdf.name,
@@ -148,11 +126,6 @@ def daemon(arm: Arm, choices: Choices) -> str:
             reach=choices.arm_reach,
             scale=choices.scale_position,
             order=_row(arm.order),
-            degree=choices.degree,
-            why_degree="" if choices.degree == 4 else "  # 4 has too many monomials",
-            reference=_row((low + high) / 2 for low, high in deg),
-            hyper=2 * n,
-            prior=2**n,
         )
     )
 

@@ -2,24 +2,26 @@
 
 import numpy as np
 
-from ..figures import canvas
+from ..figures import COLOURS, MARKERS, canvas
 from .drawing import Data, Shown, band, legend
 
-_COLOURS = {"explored": "#1f5fa8", "babbled": "#b8500f"}
+_STYLES = {
+    kind: {"color": COLOURS[ball], "marker": MARKERS[ball], "ms": 4, "markevery": None}
+    for kind, ball in (("explored", "hand"), ("babbled", "tool"))
+}
 _WORDS = {"explored": "goals of its own, nothing babbled", "babbled": "babbling"}
 
 
 def shown(experiment: str, robot: str, unit: str, within: float) -> Shown:
     def draw(data: Data):
         figure, axes = canvas(1, 3, 3.4)
-        for kind, colour in _COLOURS.items():
+        for kind, style in _STYLES.items():
             curves = data.all(f"{experiment}_{kind}")
             if not curves:
                 continue
             for axis, name in zip(axes[0], ("reached_pct", "error_median", "seconds"), strict=True):
                 values = np.array([curve[name] for curve in curves])
-                band(axis, curves[0]["samples"], values, color=colour, label=_WORDS[kind],
-                     marker="o", ms=3.5)  # fmt: skip
+                band(axis, curves[0]["samples"], values, label=_WORDS[kind], **style)
         labels = (f"targets within {within:g} {unit}, %", f"final error, median, {unit}",
                   "the robot's time, s")  # fmt: skip
         for axis, label in zip(axes[0], labels, strict=True):
@@ -35,5 +37,5 @@ def shown(experiment: str, robot: str, unit: str, within: float) -> Shown:
         experiment, f"reaching from nothing, {robot}",
         "Not in the paper. After each number of samples the model rests and the robot reaches for"
         " 16 targets; mean, and least to largest over seeds.",
-        (f"{experiment}.",), tuple(f"{experiment}_{kind}" for kind in _COLOURS), draw,
+        (f"{experiment}.",), tuple(f"{experiment}_{kind}" for kind in _STYLES), draw,
     )  # fmt: skip

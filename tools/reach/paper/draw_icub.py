@@ -75,7 +75,7 @@ def _by_learner(name: str):
 def error_in_time(data: Data):
     figure, axes = canvas()
     rows = data.first("i2_hand")
-    axes[0, 0].plot(rows["t"], rows["error"], **LEARNERS[OURS])
+    axes[0, 0].plot(rows["t"], rows["error"], color=LEARNERS[OURS]["color"])
     axes[0, 0].set(xlabel="time, s", ylabel="sum of absolute components, m", ylim=(0, None))
     return figure
 

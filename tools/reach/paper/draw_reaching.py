@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from .. import metrics
+from .. import figures, metrics
 from ..figures import canvas
 from . import series
 from .drawing import COLOURS, MEASURED, Data, Shown, legend
 
 _ARM = ("shoulder pitch", "shoulder yaw", "shoulder roll", "elbow")
 _HEAD = ("neck yaw", "neck pitch")
-_IMAGE = (("u", "#1f5fa8", "--"), ("v", "#b3261e", ":"), ("disparity", "#2f8f5b", "-"))
+_IMAGE = ("u", "v", "disparity")
 
 
 def coordination_error(ball: str):
@@ -34,8 +34,9 @@ def _joints(name: str, which: slice, words: tuple[str, ...]):
     def draw(data: Data):
         figure, axes = canvas(height=3.4)
         rows = data.first(name)
-        for angle, joint in zip(series.wide(rows, "q")[:, which].T, words, strict=True):
-            axes[0, 0].plot(rows["t"], angle, label=joint)
+        angles = series.wide(rows, "q")[:, which].T
+        for number, (angle, joint) in enumerate(zip(angles, words, strict=True)):
+            axes[0, 0].plot(rows["t"], angle, label=joint, **figures.series(number))
         axes[0, 0].set(xlabel="time, s", ylabel="joint angle, deg")
         legend(figure, axes[0, 0])
         return figure
@@ -66,8 +67,9 @@ def star_series(ball: str):
     def draw(data: Data):
         figure, axes = canvas(height=3.4)
         rows = data.first(f"k3_{ball}")
-        for column, (name, colour, style) in zip(series.wide(rows, "x").T, _IMAGE, strict=True):
-            axes[0, 0].plot(rows["t"], column, style, color=colour, label=name)
+        columns = series.wide(rows, "x").T
+        for number, (column, name) in enumerate(zip(columns, _IMAGE, strict=True)):
+            axes[0, 0].plot(rows["t"], column, label=name, **figures.series(number))
         axes[0, 0].set(xlabel="time, s", ylabel="true position, px", ylim=(-65, 65))
         legend(figure, axes[0, 0])
         return figure
@@ -83,8 +85,8 @@ def head_estimate(data: Data):
         head, estimate = series.wide(rows, "head"), series.wide(rows, "estimate")
         for i, joint in enumerate(("yaw", "pitch")):
             axis = axes[i, column]
-            axis.plot(rows["t"], head[:, i], color="#1f5fa8", label="true head")
-            axis.plot(rows["t"], estimate[:, i], "--", color="#b3261e", label="estimate")
+            axis.plot(rows["t"], head[:, i], label="true head", **figures.series(0))
+            axis.plot(rows["t"], estimate[:, i], label="estimate", **figures.series(2))
             axes[i, 0].set_ylabel(f"{joint}, deg")
         error = np.linalg.norm(head - estimate, axis=1)
         axes[2, column].plot(rows["t"], error, color="#444444", lw=1)

@@ -61,7 +61,7 @@ def legend(figure, axis, columns: int = 5) -> None:
 
 def band(axis, x: np.ndarray, curves: np.ndarray, **options) -> None:
     """Mean over the rows of `curves`, and from least to largest about it."""
-    axis.plot(x, np.nanmean(curves, axis=0), **options)
+    axis.plot(x, np.nanmean(curves, axis=0), **(figures.SPARSE | options))
     if len(curves) > 1:
         low, high = np.nanmin(curves, axis=0), np.nanmax(curves, axis=0)
         axis.fill_between(x, low, high, color=options.get("color"), alpha=0.18, lw=0)

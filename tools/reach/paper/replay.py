@@ -48,6 +48,7 @@ ICUB = Robot(
     ("noise_position",) * 3,
 )
 
+_LEARNER = "learner."
 # All others have the same names for both.
 _DAEMON_ONLY = {"kind", "queue", "quota", "body.order", "body.start", "body.tip"}
 # Those of other shape or unit: standard deviations, degrees, and numbers of each output, of which a
@@ -57,11 +58,14 @@ _OF_OUTPUTS = ("noise_angle", "noise_disparity", "noise_position", "lwpr.norm_")
 
 
 def options(robot: Robot, learner: str) -> dict:
-    """The daemon's learner options, dotted, the overlay over the robot's."""
-    result = {}
-    for path in (robot.configuration, *overlays(robot, learner)):
-        result |= _flat(yaml.safe_load(path.read_text())["learner"])
-    return result
+    """The daemon's learner options, dotted, as they hold with the overlay over the robot's file."""
+    files = [word for path in (robot.configuration, *overlays(robot, learner))
+             for word in ("--config", path)]  # fmt: skip
+    told = subprocess.run([BINARIES / "reachd", *files, "--check-config"], check=True,
+                          capture_output=True, text=True).stdout  # fmt: skip
+    options = yaml.safe_load(told)
+    return {name.removeprefix(_LEARNER): value for name, value in options.items()
+            if name.startswith(_LEARNER)}  # fmt: skip
 
 
 def overlays(robot: Robot, learner: str) -> list[Path]:
@@ -79,16 +83,6 @@ def input_order(given: dict, n_inputs: int) -> list[int]:
     has_body = given["kind"] == "imle" and given["experts"] == "body"
     order = given.get("body.order") if has_body else None
     return [number - 1 for number in order] if order else list(range(n_inputs))
-
-
-def _flat(nested: dict, prefix: str = "") -> dict:
-    result = {}
-    for name, value in nested.items():
-        if isinstance(value, dict):
-            result |= _flat(value, f"{prefix}{name}.")
-        else:
-            result[prefix + name] = value
-    return result
 
 
 def parameters(robot: Robot, given: dict) -> list[str]:
@@ -110,8 +104,7 @@ def parameters(robot: Robot, given: dict) -> list[str]:
         of_kind = is_lwpr or not name.startswith("lwpr.")
         if name not in _DAEMON_ONLY and not converted and of_kind:
             result[name] = value
-    if "body.degrees" in result:
-        result["body.degrees"] = True
+    result["body.degrees"] = result["body.space"] == "eyes"
     return [f"{name}={_text(value)}" for name, value in result.items()]
 
 

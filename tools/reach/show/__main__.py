@@ -118,8 +118,8 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
     add = parser.add_argument
     add("robot", nargs="?", default="kobian",
-        help="kobian, icub or sixaxis; a folder with reachd.yaml, simrobot.yaml and, for eyes,"
-        " vision.yaml; or a URDF; default %(default)s")  # fmt: skip
+        help="kobian, icub, sixaxis or watched; a folder with reachd.yaml, simrobot.yaml and, for"
+        " eyes, vision.yaml; or a URDF; default %(default)s")  # fmt: skip
     add("--config", metavar="DIR", help="the same as naming the folder")
     add("--seed", type=int, default=1,
         help="random seed of the simulated world; default %(default)s")  # fmt: skip

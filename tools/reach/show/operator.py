@@ -14,19 +14,21 @@ KEYS = (
     "space pause   s star   b babble   x explore   t tube   1-9 tool   0 hand   click target"
     "   f fast   q end"
 )
-BABBLE = {True: 15, False: 400}  # samples; with eyes each of them takes a fixation
+BABBLE = {True: 15, False: 400}  # samples; with a head that turns each of them takes a fixation
 EXPLORE = {True: 30, False: 400}
 STAR_SECONDS = {True: 3.0, False: 2.0}  # for each target
 REACH_SECONDS = 4.0
 STOP_SECONDS = 0.1
 ENDS = 8
-LEAST_SPREAD = 0.05  # m, of places that a star is drawn between
+LEAST_SPREAD = 0.05  # m (or px), of places that a star is drawn between
 MAX_TARGETS = 32
 
 
 class Operator:
     """Until the first key the robot goes through a tour by itself: it learns, draws a star, is
     given a tool, and so on."""
+
+    keys = KEYS  # as the picture tells of them
 
     def __init__(self, bus: Bus, clock: HeldClock, scene: Scene, robot: Robot, tour: bool = True):
         self._bus, self._clock, self._scene = bus, clock, scene
@@ -95,23 +97,27 @@ class Operator:
         self.said = f"{held}; nobody tells the daemon"
 
     def _babble(self) -> None:
-        self._learn("BABBLE", BABBLE[self._scene.sees], "babbles {} samples")
+        self._learn("BABBLE", BABBLE[self._scene.fixates], "babbles {} samples")
 
     def _explore(self) -> None:
-        self._learn("EXPLORE", EXPLORE[self._scene.sees], "explores, {} samples")
+        self._learn("EXPLORE", EXPLORE[self._scene.fixates], "explores, {} samples")
 
     def _learn(self, kind: str, count: int, said: str) -> None:
         self._seed += 1
         self._ask(kind, said.format(count), count=count, seed=self._seed, learn=1)
 
     def _star(self) -> None:
-        if self._scene.sees:
+        if self._scene.fixates:
             targets = metrics.star_targets().tolist()
         elif (targets := star_of(np.array(self._scene.visited))) is None:
             self.said = "a star goes to places where the robot has been: let it babble first"
             return
-        self._pursue(targets, STAR_SECONDS[self._scene.sees], from_centre=self._scene.sees,
-                     said="draws a star")  # fmt: skip
+        self._pursue(
+            targets,
+            STAR_SECONDS[self._scene.fixates],
+            from_centre=self._scene.fixates,
+            said="draws a star",
+        )
 
     def _pursue(self, targets: list, period: float, from_centre: bool, said: str) -> None:
         rows = [list(target) for target in targets] + [[0.0] * 3] * (MAX_TARGETS - len(targets))

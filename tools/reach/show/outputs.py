@@ -17,7 +17,7 @@ from ..programs import BINARIES
 from .layout import HEIGHT, WIDTH
 
 RATE = 25  # pictures a second of the robot's time
-END_SECONDS = 5.0
+END_SECONDS = 60.0  # a video that is cut off cannot be played
 
 
 class OutputError(Exception):
@@ -38,8 +38,8 @@ def window_opens() -> bool:
 class Frames:
     """reach-window, which shows the pictures, or writes them as a video, or both."""
 
-    def __init__(self, window: bool, video: Path | None):
-        words = [BINARIES / "reach-window", "--width", WIDTH, "--height", HEIGHT, "--rate", RATE]
+    def __init__(self, window: bool, video: Path | None, rate: int = RATE):
+        words = [BINARIES / "reach-window", "--width", WIDTH, "--height", HEIGHT, "--rate", rate]
         words += [] if window else ["--no-window"]
         words += ["--video", video] if video else []
         self._process = subprocess.Popen(

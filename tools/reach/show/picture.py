@@ -8,7 +8,7 @@ from ..words import body_words
 from . import curves
 from .drawing import INK, PALE, PAPER, font, plain_number
 from .layout import HEIGHT, IMAGE, WIDTH, Layout, Panel
-from .operator import KEYS, Operator
+from .operator import Operator
 from .scene import Scene
 
 RING, TARGET, EDGE = (255, 215, 0), (255, 70, 200), (0, 0, 0)
@@ -134,7 +134,7 @@ def _write(canvas, scene: Scene, operator: Operator, panel: Panel) -> None:
             canvas.text((x, y), part, font=font(15), fill=INK)
             y += 21
         y += 6 if number == 0 else 0
-    parts = _wrapped(KEYS, font(13), width)
+    parts = _wrapped(operator.keys, font(13), width)
     y = panel.top + panel.height - 8 - 18 * len(parts)
     for part in parts:
         canvas.text((x, y), part, font=font(13), fill=PALE)

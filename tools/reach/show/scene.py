@@ -56,11 +56,12 @@ class Scene:
         self.views: list = []
         self.cameras: dict[str, Camera] = {}  # left_view, right_view, left_eye, right_eye
         self.curves = Curves()
-        self.visited: deque = deque(maxlen=2000)  # places of the end-effector, m
+        # Places of the end-effector where no head looks for it: m, or u, v, disparity, px.
+        self.visited: deque = deque(maxlen=2000)
         for channel, kind, take in (
             ("STEREO_IMAGES", bot_core.images_t, self._on_eyes),
             ("SIM_VIEW", bot_core.images_t, self._on_views),
-            ("MARKER", reach.marker_t, lambda m: setattr(self, "marker", m)),
+            ("MARKER", reach.marker_t, self._on_marker),
             ("SIM_TRUTH", reach.sim_truth_t, self._on_truth),
             ("REACH_TRACE", reach.trace_t, lambda m: setattr(self, "trace", m)),
             ("REACH_STATUS", reach.status_t, self._on_status),
@@ -73,6 +74,11 @@ class Scene:
     @property
     def sees(self) -> bool:
         """Whether targets are in images; else they are places."""
+        return self.status is None or self.status.space != reach.status_t.CARTESIAN
+
+    @property
+    def fixates(self) -> bool:
+        """Whether a head turns to the ball, and a sample waits for it."""
         return self.status is None or self.status.space == reach.status_t.VISUAL
 
     def target(self) -> tuple[float, float, float] | None:
@@ -102,6 +108,11 @@ class Scene:
                 numbers = struct.unpack(">12d", bytes(note.value))
                 self.cameras[name] = Camera(np.reshape(numbers, (3, 4)))
 
+    def _on_marker(self, marker) -> None:
+        self.marker = marker
+        if marker.seen and self.sees and not self.fixates:
+            self.visited.append((marker.u_right, marker.v_right, marker.disparity))
+
     def _on_truth(self, truth) -> None:
         if self.truth is not None and truth.tool != self.truth.tool:
             self.curves.tool.append((truth.utime * 1e-6, truth.tool))
@@ -114,7 +125,7 @@ class Scene:
         self.curves.context.append((now, status.context, status.experts))
 
     def _on_sample(self, sample) -> None:
-        unit = [PIXELS_PER_RADIAN, PIXELS_PER_RADIAN, 1] if self.sees else [1, 1, 1]
+        unit = [PIXELS_PER_RADIAN, PIXELS_PER_RADIAN, 1] if self.fixates else [1, 1, 1]
         off = np.subtract(sample.x_predicted[:3], sample.x[:3]) * unit
         self.curves.wrong.append((sample.utime * 1e-6, float(np.linalg.norm(off))))
 

@@ -4,13 +4,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from ..figures import COLOURS, PAPER, canvas
+from ..figures import COLOURS, MARKERS, PAPER, canvas
 from .data import Samples
 from .rivals import Rival
 from .trial import Bench, Measured
 
 _BINS = 12
-OURS, BEFORE = COLOURS["hand"], COLOURS["tool"]
+OURS = COLOURS["hand"]
+_BEFORE, _PROPOSED = ({"color": COLOURS[ball], "marker": MARKERS[ball], "ms": 4}
+                      for ball in ("tool", "hand"))  # fmt: skip
 _DASHES = ("-", "--", ":")
 
 
@@ -18,12 +20,11 @@ def curve(found: Measured, before: Measured, rivals: list[Rival], bench: Bench) 
     """Median error of held-out rows against the samples that were learned."""
     figure, axes = canvas(1, 1, 3.6)
     axis = axes[0, 0]
-    for measured, name, colour in ((before, "before", BEFORE), (found, "proposed", OURS)):
+    for measured, name, shown in ((before, "before", _BEFORE), (found, "proposed", _PROPOSED)):
         points = [(n, result["test"]["held-out"]) for n, result in measured.results.items()]
         for kind, style in (("closest", "-"), ("strongest", "--")):
             medians = [test[kind]["median"] or np.nan for _, test in points]
-            axis.plot([n for n, _ in points], medians, style, color=colour,
-                      label=f"{name}, {kind}")  # fmt: skip
+            axis.plot([n for n, _ in points], medians, style, label=f"{name}, {kind}", **shown)
     for rival, dashes in zip(rivals, _DASHES, strict=False):
         axis.axhline(np.median(bench.distance(rival.predicted)), color=PAPER, ls=dashes,
                      label=rival.name)  # fmt: skip
@@ -64,14 +65,14 @@ def _one_input(axis, values: np.ndarray, distance: np.ndarray) -> None:
 def branches(found: Measured, before: Measured) -> Figure:
     """How many experts there are, and how many solutions a posture has."""
     figure, axes = canvas(1, 2, 2.9)
-    for measured, name, colour in ((before, "before", BEFORE), (found, "proposed", OURS)):
+    for measured, name, shown in ((before, "before", _BEFORE), (found, "proposed", _PROPOSED)):
         n = list(measured.results)
         experts = [result["experts"] for result in measured.results.values()]
         solutions = [
             result["test"]["held-out"]["solutions"] for result in measured.results.values()
         ]
         for axis, values in zip(axes[0], (experts, solutions), strict=True):
-            axis.plot(n, values, color=colour, label=name)
+            axis.plot(n, values, label=name, **shown)
     for axis, what in zip(axes[0], ("experts", "solutions of a posture, mean"), strict=True):
         axis.set(xscale="log", xlabel="samples learned", ylabel=what)
         axis.set_ylim(bottom=0)
