@@ -173,6 +173,8 @@ void add_tools(const finder_settings &settings, const std::vector<learner_sample
     constexpr double as_well = 1.3;
 
     for (const learner_samples &tool : bent) {
+        if (tool.n < fewest)
+            continue; /* so few can be explained by any chain */
         struct body known;
         finder_settings from_here = settings;
         finder_report with_it{};

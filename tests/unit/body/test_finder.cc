@@ -140,6 +140,26 @@ START_TEST(samples_along_a_line_do_not_tell)
 }
 END_TEST
 
+/* So few can be explained by any chain that gives way a little: it would be the wrong one. */
+START_TEST(few_samples_of_a_tool_that_bends_tell_nothing_of_the_chain)
+{
+    bed_seed();
+    body truth = made_up_arm(4, true);
+    Samples hand{4, {}, {}};
+    Samples tool{4, {}, {}};
+    add_random(hand, truth, 30);
+    for (int k = 0; k < 4; k++) {
+        const double tip[3] = {0.1, 0.25 + 0.002 * k, 0.05};
+        add_random(tool, truth, 1, tip);
+    }
+    learner_samples bends = tool.view();
+    bends.rigid = false;
+    Answer answer = search(truth, {hand.view(), bends});
+    ck_assert_int_eq(answer.outcome, FINDER_FOUND);
+    ck_assert_int_eq(answer.report.samples, hand.n());
+}
+END_TEST
+
 START_TEST(the_same_samples_give_the_same_bytes)
 {
     bed_seed();
@@ -168,9 +188,13 @@ END_TEST
 int main()
 {
     const TTest *const tests[] = {
-        four_joints_are_found_from_thirty_samples, seven_joints_are_found,
-        a_joint_that_slides_is_found_from_sweeps,  a_soft_arm_is_no_chain,
-        samples_along_a_line_do_not_tell,          the_same_samples_give_the_same_bytes,
+        four_joints_are_found_from_thirty_samples,
+        seven_joints_are_found,
+        a_joint_that_slides_is_found_from_sweeps,
+        a_soft_arm_is_no_chain,
+        samples_along_a_line_do_not_tell,
+        few_samples_of_a_tool_that_bends_tell_nothing_of_the_chain,
+        the_same_samples_give_the_same_bytes,
     };
     return SUITE_RUN("finder", tests);
 }
