@@ -23,6 +23,7 @@ from .body_stream import BODY, POLYNOMIAL, BodyStudy, NeverWorse
 from .body_studies import body_studies
 from .evaluation import EvaluationError, reach_eval
 from .hard_studies import hard_studies
+from .kept_draws import KeptDraws
 from .programs import ROOT
 from .progress import Progress
 from .studies import Bar
@@ -45,21 +46,29 @@ def seeds_of(hash_: str, draws: int) -> list[int]:
 
 
 def evaluate(
-    study: BodyStudy, draw: int, seed: int, parameters: list[str], only: list[str]
+    study: BodyStudy, draw: int, seed: int, options: argparse.Namespace, kept: KeptDraws
 ) -> dict:
-    """reach-eval's results by learner (those of `only`, or both) and number of samples."""
+    """reach-eval's results by learner (those asked for, or both) and number of samples."""
     rng = np.random.default_rng([zlib.crc32(study.name.encode()), seed])
     counts = sorted({bar.at for bar in study.bars})
+    parameters = [*study.parameters, *options.param]
+    results = {}
     with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
-        folder = Path(name)
-        files = study.make(folder, rng, *([draw] if study.numbered else []))
-        return {
-            learner: reach_eval(study.dimensions, files, counts, folder / "report.json",
-                                config=ROOT / "etc" / config,
-                                parameters=[*study.parameters, *parameters])
-            for learner, config in zip(study.columns, study.files, strict=True)
-            if not only or learner in only
-        }  # fmt: skip
+        folder, files = Path(name), None
+        for learner, config in zip(study.columns, study.files, strict=True):
+            if options.learners and learner not in options.learners:
+                continue
+            path, named = ROOT / "etc" / config, f"{study.name}-{seed}-{learner}"
+            key = kept.key([draw, counts, parameters, str(options.data)], path)
+            results[learner] = kept.read(named, key)
+            if results[learner] is not None:
+                continue
+            if files is None:
+                files = study.make(folder, rng, *([draw] if study.numbered else []))
+            results[learner] = reach_eval(study.dimensions, files, counts, folder / "report.json",
+                                          config=path, parameters=parameters)  # fmt: skip
+            kept.write(named, key, results[learner])
+    return results
 
 
 def _number(bar: Bar, results: dict[int, dict] | None) -> float:
@@ -175,6 +184,17 @@ def _write(out: Path, summary: dict) -> None:
     (out / f"{name}.html").write_text(_page(summary))
 
 
+def _draws_of(study: BodyStudy, seeds: list[int], options: argparse.Namespace, kept: KeptDraws,
+              progress: Progress) -> list[dict]:  # fmt: skip
+    draws = min(options.draws, study.most_draws or options.draws)
+    found = []
+    with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
+        for one in pool.map(lambda k: evaluate(study, k, seeds[k], options, kept), range(draws)):
+            found.append(one)
+            progress.update(study.name, len(found) / draws, f"{len(found)} of {draws} draws")
+    return found
+
+
 def run(options: argparse.Namespace) -> list[dict]:
     chosen = chosen_of(options)
     seeds = seeds_of(options.commit or commit(), options.draws)
@@ -182,14 +202,9 @@ def run(options: argparse.Namespace) -> list[dict]:
                "quick": options.quick, "param": options.param, "rows": []}  # fmt: skip
     print(f"accuracy: seeds of commit {summary['commit'][:12]}: {', '.join(map(str, seeds))}")
     progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
+    kept = KeptDraws(options.out / "draws", options.resume)
     for study in chosen:
-        draws = min(options.draws, study.most_draws or options.draws)
-        progress.update(study.name, 0.0, f"{draws} draws")
-        with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
-            found = list(pool.map(lambda draw, s=study: evaluate(s, draw, seeds[draw],
-                                                                options.param,
-                                                                options.learners),
-                                  range(draws)))  # fmt: skip
+        found = _draws_of(study, seeds, options, kept, progress)
         rows = rows_of(study, found)
         summary["rows"] += rows
         missed = [row["metric"] for row in rows if row["met"] is False]

@@ -7,6 +7,7 @@ import math
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 from reach import accuracy, body_accuracy
@@ -127,6 +128,19 @@ class Whole(unittest.TestCase):
         self.assertEqual(summary["seeds"], body_accuracy.seeds_of("c0ffee", 2))
         self.assertIn("random postures of the hand", said.getvalue())
         self.assertIn("c0ffee", page)
+
+    def test_what_was_measured_is_not_measured_again(self):
+        with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(io.StringIO()):
+            arguments = ["--only", "body_postures", "--draws", "1", "--commit", "c0ffee",
+                         "--learners", "body", "--out", name]  # fmt: skip
+            self.assertEqual(accuracy.main(arguments), 0)
+            first = (Path(name) / "body.json").read_text()
+            with mock.patch.object(body_accuracy, "reach_eval", side_effect=AssertionError):
+                self.assertEqual(accuracy.main([*arguments, "--resume"]), 0)
+                self.assertEqual((Path(name) / "body.json").read_text(), first)
+                for other in ([], ["--resume", "--param", "ridge=1e-4"]):
+                    with self.assertRaises(AssertionError):
+                        accuracy.main([*arguments, *other])
 
     def test_studies_of_both_kinds_do_not_mix(self):
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
