@@ -26,6 +26,8 @@ class BodyStudy(Study):
     wants_data: bool = False
     numbered: bool = False  # `make` is given the draw's number, too
     alone: bool = False  # nothing else runs at the same time
+    # From the files: a number for the name of each bar, which a batch fit reaches on the same rows.
+    batch: Callable[[Files], dict[str, float]] | None = None
 
 
 class NeverWorse(Bar):
