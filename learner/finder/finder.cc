@@ -19,6 +19,7 @@ namespace
 constexpr int fewest = 15;        /* samples, whatever the arm */
 constexpr double explains = 3.0;  /* misfit kept apart, in units of what the training misfit says */
 constexpr double believed = 0.02; /* doubt, of the length of what was seen */
+constexpr double blind = 1e9; /* doubt of what sees nothing in most postures: no start for others */
 constexpr double chain_like = 0.05; /* misfit that is still an arm's, of the length */
 constexpr double as_noisy = 1.5;    /* or, in units of the noise, no more than the sensor's own */
 constexpr int many = 150;           /* samples after which an arm that is none is called so */
@@ -65,7 +66,7 @@ finder_outcome decide(const Found &found, finder_report *report)
     int n = report->samples;
 
     if (explained(found, *report)) {
-        report->any_body = true;
+        report->any_body = report->doubt < blind;
         if (report->doubt < believed)
             return FINDER_FOUND;
         if (report->doubt < 1)
