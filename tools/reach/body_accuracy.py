@@ -99,13 +99,14 @@ def _row(study: BodyStudy, bars: list[Bar], draws: list[dict]) -> dict:
         bar = replace(bar, most=max(bar.most, AS_BATCH * batch))
     mean, other = float(np.mean(ours)), float(np.mean(theirs))
     if isinstance(bar, NeverWorse):
-        bar = replace(bar, most=other)
+        bar = replace(bar, most=bar.share * other)
     return {
         "study": study.name, "what": study.what, "metric": bar.name, "unit": bar.unit,
         "mean": mean, "median": float(np.median(ours)), "values": ours,
         "batch": None if math.isnan(batch) else batch, "learner": study.columns[0],
         "beside": other, "beside_values": theirs,
         "bar": bar.most, "target": bar.target, "never_worse": isinstance(bar, NeverWorse),
+        "share": getattr(bar, "share", None),
         "met": None if math.isinf(bar.most) else bool(bar.met(mean)),
         "draws_met": sum(bar.met(value) for value in ours),
     }  # fmt: skip
@@ -125,7 +126,9 @@ def _wanted(row: dict) -> str:
         return ""
     if row["target"] is not None:
         return f"{row['target']:g} +- {row['bar']:g}" if row["bar"] else f"{row['target']:g}"
-    return "as polynomials" if row["never_worse"] else f"at most {row['bar']:g}"
+    if row["never_worse"]:
+        return "as polynomials" if row["share"] == 1 else f"{row['share']:g} of polynomials"
+    return f"at most {row['bar']:.3g}"
 
 
 def _verdict(row: dict) -> str:

@@ -31,7 +31,13 @@ class BodyStudy(Study):
 
 
 class NeverWorse(Bar):
-    """A bar that the polynomials set."""
+    """A bar that the polynomials set: this share of what they have."""
+
+    share = 1.0
+
+
+class Half(NeverWorse):
+    share = 0.5
 
 
 def strongest(test: str) -> Callable[[dict], float]:

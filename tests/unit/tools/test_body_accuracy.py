@@ -14,7 +14,7 @@ import numpy as np
 from reach import accuracy, body_accuracy
 from reach.arm import TOOLS, Arm
 from reach.batch_body import fit
-from reach.body_stream import DIFFERENT, BodyStudy, NeverWorse, Stream
+from reach.body_stream import DIFFERENT, BodyStudy, Half, NeverWorse, Stream
 from reach.body_studies import body_studies
 from reach.curves.gazing_arm import another
 from reach.screws import franka_like, sweeps, ten_joints, turned
@@ -107,6 +107,13 @@ class Verdicts(unittest.TestCase):
         study = study_of(NeverWorse("x", 1, lambda r: r["x"], 0))
         self.assertTrue(body_accuracy.rows_of(study, [draw_of(1.0, 1.1)])[0]["met"])
         self.assertFalse(body_accuracy.rows_of(study, [draw_of(1.2, 1.1)])[0]["met"])
+
+    def test_time_is_to_be_half_of_the_polynomials(self):
+        study = study_of(Half("x", 1, lambda r: r["x"], 0))
+        (row,) = body_accuracy.rows_of(study, [draw_of(1.0, 2.1)])
+        self.assertTrue(row["met"])
+        self.assertIn("0.5 of polynomials", body_accuracy.table([row]))
+        self.assertFalse(body_accuracy.rows_of(study, [draw_of(1.0, 1.9)])[0]["met"])
 
     def test_a_batch_fit_of_the_same_rows_moves_the_bar(self):
         study = study_of(Bar("x", 1, lambda r: r["x"], 1.0))
