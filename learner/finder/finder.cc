@@ -19,27 +19,10 @@ namespace
 constexpr int fewest = 15;        /* samples, whatever the arm */
 constexpr double explains = 3.0;  /* misfit kept apart, in units of what the training misfit says */
 constexpr double believed = 0.02; /* doubt, of the length of what was seen */
+constexpr double blind = 1e9; /* doubt of what sees nothing in most postures: no start for others */
 constexpr double chain_like = 0.05; /* misfit that is still an arm's, of the length */
 constexpr double as_noisy = 1.5;    /* or, in units of the noise, no more than the sensor's own */
 constexpr int many = 150;           /* samples after which an arm that is none is called so */
-
-/* rms distance of what was seen from its middle, in the units of the candidate. */
-double length_of(const Data &data, const Candidate &candidate)
-{
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double squares = 0;
-    double n = (double)data.samples.size();
-
-    for (const Sample &sample : data.samples) {
-        double place[3];
-        double white[9];
-        if (!body_place(&candidate.body, sample.x.data(), place, white))
-            return 1;
-        sum += Eigen::Vector3d(place);
-        squares += Eigen::Vector3d(place).squaredNorm();
-    }
-    return std::sqrt(std::max(squares / n - (sum / n).squaredNorm(), 1e-12));
-}
 
 /* What can be known of a body and its tips, over the numbers that the training samples have. */
 double knowns_share(const Data &data)
@@ -61,19 +44,29 @@ double noise_of(const Data &data, const Candidate &candidate)
                     100.0);
 }
 
+/* A body with what it was found from. */
+struct Found {
+    Data data;
+    Candidate best;
+    double noise = 1;
+    double told = 1; /* how many times the noise told that of the data is */
+};
+
 /* Whether a chain explains what was kept apart. */
-bool explained(const Data &data, double noise, const finder_report &report)
+bool explained(const Found &found, const finder_report &report)
 {
-    return report.error < explains * std::max(noise, 1.0) &&
-           (relative(data, report.error) < chain_like || report.error < as_noisy);
+    double error = report.error / found.told;
+
+    return error < explains * std::max(found.noise, 1.0) &&
+           (relative(found.data, error) < chain_like || error < as_noisy);
 }
 
-finder_outcome decide(const Data &data, double noise, finder_report *report)
+finder_outcome decide(const Found &found, finder_report *report)
 {
     int n = report->samples;
 
-    if (explained(data, noise, *report)) {
-        report->any_body = true;
+    if (explained(found, *report)) {
+        report->any_body = report->doubt < blind;
         if (report->doubt < believed)
             return FINDER_FOUND;
         if (report->doubt < 1)
@@ -102,13 +95,6 @@ void fill_body(const Data &data, Candidate &candidate, double noise, const finde
     body->doubt = report.doubt;
 }
 
-/* A body with what it was found from. */
-struct Found {
-    Data data;
-    Candidate best;
-    double noise = 1;
-};
-
 bool was_believed(const struct body *start)
 {
     return start && start->samples > 0 && start->doubt < believed;
@@ -127,11 +113,24 @@ bool is_trusted(const finder_settings &settings, const finder_report &report)
 void weigh(Found &found, random_state &random, finder_report *report)
 {
     solve(found.data, 60, true, found.best);
-    report->error = misfit(found.data, found.best, true);
+    report->error = found.told * misfit(found.data, found.best, true);
     found.noise = noise_of(found.data, found.best);
     found.best.body.length = length_of(found.data, found.best);
     report->doubt = judge(found.data, found.noise, random, found.best);
-    report->outcome = decide(found.data, found.noise, report);
+    report->outcome = decide(found, report);
+}
+
+/* Where the noise told is far from the samples' own, they are judged by that. Where no chain
+ * explains samples of one tool, they may be of several. */
+void look_closer(const finder_settings &settings, size_t tools, random_state &random, Found &found)
+{
+    solve(found.data, 60, false, found.best);
+    found.told = noise_factor(found.data, found.best);
+    found.data.noise *= found.told;
+    for (double &one : found.best.body.noise)
+        one *= found.told;
+    if (!settings.start && tools == 1 && found.told <= 1)
+        tell_tips_apart(found.data, random, near_truth(found.data), found.best);
 }
 
 /* From these tools; `start` is where it begins, or NULL for a search. */
@@ -143,11 +142,8 @@ Found find(const finder_settings &settings, const std::vector<learner_samples> &
     found.data = prepare(settings, tools.data(), (int)tools.size());
     report->samples = (int)found.data.samples.size();
     found.best = search(found.data, random, &report->starts);
-    if (!settings.start && tools.size() == 1 &&
-        misfit(found.data, found.best, false, 0) > near_truth(found.data)) {
-        solve(found.data, 60, false, found.best);
-        tell_tips_apart(found.data, random, near_truth(found.data), found.best);
-    }
+    if (misfit(found.data, found.best, false, 0) > near_truth(found.data))
+        look_closer(settings, tools.size(), random, found);
     bool trusted = is_trusted(settings, *report);
     if (trusted)
         found.data.whole = found.data.seen;
@@ -158,7 +154,7 @@ Found find(const finder_settings &settings, const std::vector<learner_samples> &
     if (apart > 0) {
         weigh(found, random, report);
         report->doubt = std::min(std::max(report->doubt, apart), 1e9);
-        report->outcome = decide(found.data, found.noise, report);
+        report->outcome = decide(found, report);
     }
     return found;
 }
@@ -173,6 +169,8 @@ void add_tools(const finder_settings &settings, const std::vector<learner_sample
     constexpr double as_well = 1.3;
 
     for (const learner_samples &tool : bent) {
+        if (tool.n < fewest)
+            continue; /* so few can be explained by any chain */
         struct body known;
         finder_settings from_here = settings;
         finder_report with_it{};
@@ -262,7 +260,11 @@ void teach_all(Found &found, random_state &random, finder_report *report)
     solve(found.data, 60, true, found.best);
     found.best.body.length = length_of(found.data, found.best);
     report->doubt = judge(found.data, found.noise, random, found.best);
-    std::snprintf(report->why, sizeof report->why, "found from %d samples", report->samples);
+    int length =
+        std::snprintf(report->why, sizeof report->why, "found from %d samples", report->samples);
+    if (found.told > 1)
+        std::snprintf(report->why + length, sizeof report->why - (size_t)length,
+                      ", whose noise is %.0f times what was told", found.told);
 }
 
 int count(const std::vector<learner_samples> &tools)

@@ -32,6 +32,77 @@ double misfit(const Data &data, const Candidate &candidate, bool apart, double g
     return std::sqrt(sum / (double)n);
 }
 
+double length_of(const Data &data, const Candidate &candidate)
+{
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double squares = 0;
+    double n = (double)data.samples.size();
+
+    for (const Sample &sample : data.samples) {
+        double place[3];
+        double white[9];
+        if (!body_place(&candidate.body, sample.x.data(), place, white))
+            return 1;
+        sum += Eigen::Vector3d(place);
+        squares += Eigen::Vector3d(place).squaredNorm();
+    }
+    return std::sqrt(std::max(squares / n - (sum / n).squaredNorm(), 1e-12));
+}
+
+namespace
+{
+
+constexpr double told_rightly = 2.5; /* misfit, in units of the noise told */
+constexpr double near = 0.2;         /* rad: neighbours, over which what a chain leaves is smooth */
+constexpr int enough_pairs = 40;
+constexpr double in_common = 0.25; /* share of the squares */
+
+/* The nearest of the same tool in the joint space; NULL: none is near. */
+const Sample *neighbour_of(const Data &data, const Sample &sample)
+{
+    const Sample *nearest = nullptr;
+    double least = near * near;
+
+    for (const Sample &other : data.samples) {
+        double distance = 0;
+        if (&other == &sample || other.context != sample.context || other.gross)
+            continue;
+        for (int i = 0; i < data.n && distance < least; i++)
+            distance += (sample.z[i] - other.z[i]) * (sample.z[i] - other.z[i]);
+        if (distance < least) {
+            least = distance;
+            nearest = &other;
+        }
+    }
+    return nearest;
+}
+
+} // namespace
+
+double noise_factor(const Data &data, const Candidate &candidate)
+{
+    double of_pairs = 0;
+    double squares = 0;
+    int pairs = 0;
+    double factor = misfit(data, candidate, false, 0);
+
+    if (factor < told_rightly)
+        return 1;
+    for (const Sample &sample : data.samples) {
+        const Sample *other = sample.gross ? nullptr : neighbour_of(data, sample);
+        const Eigen::Vector3d &tip = candidate.tips[(size_t)sample.context];
+        double here[3];
+        double there[3];
+        if (!other || !residual(data, candidate.body, tip, sample, here, nullptr, nullptr) ||
+            !residual(data, candidate.body, tip, *other, there, nullptr, nullptr))
+            continue;
+        of_pairs += vec3_dot(here, there);
+        squares += (vec3_dot(here, here) + vec3_dot(there, there)) / 2;
+        pairs++;
+    }
+    return pairs >= enough_pairs && of_pairs < in_common * squares ? factor : 1;
+}
+
 namespace
 {
 

@@ -82,7 +82,7 @@ Candidate search(const Data &data, random_state &random, int *starts)
             best = candidate;
             any = true;
         }
-        if (misfit(some, best, false) < near_truth(data)) {
+        if (misfit(some, best, false) < near_truth(data) || noise_factor(data, best) > 1) {
             ++*starts;
             break;
         }

@@ -14,8 +14,8 @@ double relative(const Data &data, double error);
 /* The misfit of a right chain is under this, in units of the noise. */
 double near_truth(const Data &data);
 
-/* The best of many starts; stops at the first whose misfit is that of the noise, or when several
- * have come to the same best. */
+/* The best of many starts; stops at the first whose misfit is that of the noise, told or not, or
+ * when several have come to the same best. */
 Candidate search(const Data &data, random_state &random, int *starts);
 
 /* What further starts say against a candidate that explains the samples with this noise (in units

@@ -121,6 +121,12 @@ def _add_of_groups(parser: Parser) -> None:
         default=[],
         help="of body and hard: measure these alone; default both",
     )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="of body and hard: leave out the draws that a run before has measured with the same"
+        " program, files and options; OUT/draws has them",
+    )
 
 
 def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.ArgumentParser:

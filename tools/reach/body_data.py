@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .batch_body import fit
 from .body_stream import BodyStudy, NeverWorse
 from .studies import Bar, Files, rmse, write
 
@@ -16,6 +17,7 @@ TUBE = "kobian_tube_samples.csv.gz"
 EYES = ("learner-kobian-offline-body.yaml", "learner-kobian-offline.yaml")
 # What S1 and S2 go through together, in the units of COMPONENTS: mean of the ten robots.
 RANGES = (39.1, 50.3, 44.3)
+PIXEL = (0.095, 0.095, 1.0)  # what a pixel of noise is in a fixation: deg, deg, px
 COMPONENTS = (("yaw", "deg"), ("pitch", "deg"), ("disparity", "px"))
 
 
@@ -47,6 +49,15 @@ def make_tube(data: Path, folder: Path, rng: np.random.Generator) -> Files:
     rows = _fixations(data / TUBE)
     train = [write(folder / "hand.csv", rng.permutation(rows["train_hand"])[:20]),
              write(folder / "tube.csv", rng.permutation(rows["train_tube"])[:20])]  # fmt: skip
+    tests = {name: write(folder / f"test_{name}.csv", rows[f"test_{name}"])
+             for name in ("hand", "tube")}  # fmt: skip
+    return Files(train, tests, {})
+
+
+def make_tube_recorded(data: Path, folder: Path, rng: np.random.Generator) -> Files:
+    """In the order in which the robot met them."""
+    rows = _fixations(data / TUBE)
+    train = [write(folder / f"{name}.csv", rows[f"train_{name}"][:20]) for name in ("hand", "tube")]
     tests = {name: write(folder / f"test_{name}.csv", rows[f"test_{name}"])
              for name in ("hand", "tube")}  # fmt: skip
     return Files(train, tests, {})
@@ -87,6 +98,22 @@ def k1_bars() -> list[Bar]:
             for test in wanted for k, (name, _) in enumerate(COMPONENTS)]  # fmt: skip
 
 
+def k1_batch(files: Files) -> dict[str, float]:
+    """The true structure, fitted to all rows of both tools, which it is told."""
+    rows = [np.loadtxt(path, delimiter=",", skiprows=1) for path in files.train]
+    found = fit(rows, PIXEL)
+    numbers = {}
+    for tool, (name, path) in enumerate(files.test.items()):
+        test = np.loadtxt(path, delimiter=",", skiprows=1)
+        q, x = test[:, :4], test[:, 4:]
+        apart = ((rows[tool][:, None, :4] - q[None]) ** 2).sum(axis=2)
+        near = rows[tool][apart.argmin(axis=0), 4:]
+        error = np.sqrt(np.mean((found.predict(q, tool, near) - x) ** 2, axis=0))
+        for k, (what, _) in enumerate(COMPONENTS):
+            numbers[f"{name}, {what}"] = float(100 * error[k] / RANGES[k])
+    return numbers
+
+
 def data_studies(data: Path | None) -> list[BodyStudy]:
     where = data or Path()
     return [
@@ -97,10 +124,13 @@ def data_studies(data: Path | None) -> list[BodyStudy]:
                   quick=False, most_draws=1, wants_data=True),
         BodyStudy("body_tube", "fixations of the Kobian's hand, then of its flexible tube", (4, 3),
                   partial(make_tube, where), tube_bars(), files=EYES, wants_data=True),
+        BodyStudy("body_tube_recorded", "the same in the order of the robot's day", (4, 3),
+                  partial(make_tube_recorded, where), tube_bars(), files=EYES, most_draws=1,
+                  wants_data=True),
         BodyStudy("body_robots", "reference data of Kobian-like robots, 1 px of noise",
                   (4, 3), partial(make_robot, where), robot_bars(), ("noise_share=0.1",),
                   files=EYES, wants_data=True, numbered=True),
         BodyStudy("body_k1", "the same, 500 of hand and 500 of tool, % of the range", (4, 3),
                   partial(make_robot, where), k1_bars(), ("noise_share=0.1",),
-                  files=EYES, wants_data=True, numbered=True),
+                  files=EYES, wants_data=True, numbered=True, batch=k1_batch),
     ]  # fmt: skip

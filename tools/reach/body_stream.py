@@ -26,10 +26,18 @@ class BodyStudy(Study):
     wants_data: bool = False
     numbered: bool = False  # `make` is given the draw's number, too
     alone: bool = False  # nothing else runs at the same time
+    # From the files: a number for the name of each bar, which a batch fit reaches on the same rows.
+    batch: Callable[[Files], dict[str, float]] | None = None
 
 
 class NeverWorse(Bar):
-    """A bar that the polynomials set."""
+    """A bar that the polynomials set: this share of what they have."""
+
+    share = 1.0
+
+
+class Half(NeverWorse):
+    share = 0.5
 
 
 def strongest(test: str) -> Callable[[dict], float]:

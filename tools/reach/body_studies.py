@@ -12,7 +12,7 @@ import numpy as np
 
 from .body_data import data_studies
 from .body_limits import limit_studies
-from .body_stream import HAND, NO_BAR, STICK, BodyStudy, Stream, strongest
+from .body_stream import HAND, NO_BAR, STICK, BodyStudy, Half, Stream, strongest
 from .body_trouble import trouble_studies
 from .screws import franka_like, sweeps, ten_joints
 from .studies import Bar, Files, rmse
@@ -168,7 +168,7 @@ def _studies_of_learning() -> list[BodyStudy]:
                   [Bar("hand after 2,000", 2000, rmse("hand"), 0.6),
                    Bar("stick after 2,000", 2000, rmse("stick"), 0.6)]),
         BodyStudy("body_time", "the same walk, one at a time: cost on one core", arm, make_walk,
-                  [*(Bar(f"{call}, {name}", 3000, microseconds(call, q), NO_BAR, "us")
+                  [*(Half(f"{call}, {name}", 3000, microseconds(call, q), 0, "us")
                      for call in ("update", "predict") for q, name in (("p50", "median"),
                                                                       ("p999", "99.9 %"))),
                    Bar("first body after", 3000, found("found_at"), NO_BAR, "rows"),

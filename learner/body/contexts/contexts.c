@@ -207,17 +207,8 @@ static bool give_birth(struct contexts *contexts, const double *z, const double 
 {
     int j = contexts->n;
     struct context *context = &contexts->context[j];
-    context->number = fmod(contexts->births, CONTEXTS_NUMBERS);
-    context->support = context->age = context->twin = context->strain = 0.0;
-    context->recent = contexts_recent_share;
-    context->gain = 0.0;
-    context->confirmed = false;
-    contexts->gain[j] = 0.0;
-    context->scale = 1.0;
-    context->slip = 0.0;
-    context->anchor.known = context->anchor.slips = false;
-    tied_reset(&context->tied, &contexts->design);
-    kept_clear(&context->kept);
+
+    contexts_begin(contexts, j);
     tied_test(&context->tied, &contexts->design, contexts->kernels, contexts->white, y,
               contexts->doubt, &contexts->scratch, &contexts->fit[j]);
     if (!(contexts->fit[j].distance[0] <= own))
@@ -304,8 +295,9 @@ static void relearn(struct contexts *contexts, int j)
     double oldest = follow_leaves(context) ? kept->offered - of_slipping : 0.0;
     double support = context->support;
     double y[BODY_OUTPUTS];
+    bool any = false;
 
-    tied_reset(&context->tied, &contexts->design);
+    tied_reset(&context->tied, &contexts->design, NULL);
     contexts->gain[j] = 0.0;
     context->scale = 1.0;
     for (int i = 0; i < kept->n; i++) {
@@ -313,6 +305,9 @@ static void relearn(struct contexts *contexts, int j)
         if (kept->at[i] < oldest ||
             !contexts_whiten(contexts, z, kept->x + (ptrdiff_t)i * BODY_OUTPUTS, y))
             continue;
+        if (!any)
+            contexts_hold(contexts, j);
+        any = true;
         tied_test(&context->tied, &contexts->design, contexts->kernels, contexts->white, y,
                   contexts->doubt, &contexts->scratch, &contexts->fit[j]);
         learn_in(contexts, j, 1.0, y);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "learner/body/vec3.h"
+
 /* More than a mistake: so many samples, which it has foretold so much better than nothing would. By
  * chance a tip that droops explains any two or three samples, though not well. */
 static const double confirming_samples = 2.5;
@@ -25,6 +27,37 @@ static const double slack = 2.0;
 static const double most_strain = 8.0;
 
 const double contexts_recent_share = 0.05;
+
+void contexts_hold(struct contexts *contexts, int j)
+{
+    struct tied *tied = &contexts->context[j].tied;
+    double apart[3];
+    double length[3];
+
+    memcpy(apart, contexts->place, sizeof apart);
+    vec3_add(-1.0, contexts->pose.p, apart);
+    mat3_apply_transposed(contexts->pose.turn[contexts->body->chain.n], apart, length);
+    if (j > 0)
+        vec3_add(-contexts->design.sd_tip, contexts->context[0].tied.theta[0], length);
+    tied_reset(tied, &contexts->design, j > 0 ? length : NULL);
+}
+
+void contexts_begin(struct contexts *contexts, int j)
+{
+    struct context *context = &contexts->context[j];
+
+    context->number = fmod(contexts->births, CONTEXTS_NUMBERS);
+    context->support = context->age = context->twin = context->strain = 0.0;
+    context->recent = contexts_recent_share;
+    context->gain = 0.0;
+    context->confirmed = false;
+    contexts->gain[j] = 0.0;
+    context->scale = 1.0;
+    context->slip = 0.0;
+    context->anchor.known = context->anchor.slips = false;
+    contexts_hold(contexts, j);
+    kept_clear(&context->kept);
+}
 
 bool contexts_confirmed(const struct context *context)
 {

@@ -12,6 +12,13 @@ extern "C" {
 /* What the newest sample counts of those that a context had of late. */
 extern const double contexts_recent_share;
 
+/* Context j knows nothing, but how long what it holds is: the place of the sample that was
+ * whitened, from where the tip of what was learned first, the hand, is. */
+void contexts_hold(struct contexts *contexts, int j);
+
+/* The room at j is that of a new context, which has learned nothing of the sample yet. */
+void contexts_begin(struct contexts *contexts, int j);
+
 /* Whether this sample, which is context `winner`'s own, is one of many in a row that fit it badly:
  * each for itself is within what the context may err, all together are of another tool. */
 bool contexts_strained(struct contexts *contexts, int winner);

@@ -12,6 +12,9 @@ static const double share_droop = 0.4;
 static const double share_constant = 0.03;
 static const double share_linear = 0.06;
 static const double share_quadratic = 0.04;
+static const double share_across = 0.5;
+static const double share_odd = 0.15;
+static const double share_stub = 0.3;
 static const double least_range = 0.3; /* rad */
 
 static int monomials(int n, int degree)
@@ -33,9 +36,28 @@ void design_init(struct design *design, const struct body *body)
         design->range[i] = fmax(body->range[i], least_range);
     design->sd_tip = share_tip * body->length;
     design->sd_droop = share_droop * body->length;
+    design->sd_across = share_across * body->length;
+    design->sd_odd = share_odd * body->length;
+    design->stub = share_stub * body->length;
     design->sd_constant = share_constant * body->length;
     design->sd_linear = share_linear * body->length;
     design->sd_quadratic = share_quadratic * body->length;
+}
+
+void design_droop_prior(const struct design *design, const double *tip, double *covariance)
+{
+    const double length = vec3_dot(tip, tip) + design->stub * design->stub;
+    const double across = design->sd_across / design->sd_droop;
+    const double odd = design->sd_odd / design->sd_droop;
+    double bends[9];
+
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            bends[3 * i + k] = (i == k ? 1.0 : 0.0) - tip[i] * tip[k] / length;
+    for (int i = 0; i < DESIGN_DROOP; i++)
+        for (int k = 0; k < DESIGN_DROOP; k++)
+            covariance[DESIGN_DROOP * i + k] =
+                across * across * bends[i] * bends[k] + (i == k ? odd * odd : 0.0);
 }
 
 /* The k-th monomial of u goes to rows r, column 3 k + r behind the rigid part. */

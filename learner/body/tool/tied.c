@@ -58,11 +58,34 @@ void tied_place_scratch(struct tied_scratch *scratch, const struct design *desig
     };
 }
 
-void tied_reset(struct tied *tied, const struct design *design)
+/* G of the droop's coefficients, with G' G their covariance: from the last row up. */
+static void whiten_droop(const double *covariance, double *G)
+{
+    enum { N = DESIGN_DROOP };
+
+    for (int i = N - 1; i >= 0; i--) {
+        double *row = G + whitener_row(DESIGN_TIP + i) + DESIGN_TIP;
+        for (int j = i; j >= 0; j--) {
+            double left = covariance[N * i + j];
+            for (int k = i + 1; k < N; k++) {
+                const double *below = G + whitener_row(DESIGN_TIP + k) + DESIGN_TIP;
+                left -= below[i] * below[j];
+            }
+            row[j] = j == i ? sqrt(left) : left / row[i];
+        }
+    }
+}
+
+void tied_reset(struct tied *tied, const struct design *design, const double *tip)
 {
     size_t P = (size_t)design->size[2];
+    double covariance[DESIGN_DROOP * DESIGN_DROOP];
 
     whitener_set_diagonal(design->size[2], tied->G, 1.0);
+    if (tip) {
+        design_droop_prior(design, tip, covariance);
+        whiten_droop(covariance, tied->G);
+    }
     memset(tied->b, 0, (1 + DESIGN_SIZES) * P * sizeof *tied->b);
     memset(tied->evidence, 0, sizeof tied->evidence);
     tied->turn = 0.0;

@@ -2,6 +2,8 @@
  *
  *   y = Phi theta + noise,   theta ~ N(0, I),   noise ~ N(0, I)
  *
+ * (of the droop, what design_droop_prior() says, in the beginning; what fades is filled up by I).
+ *
  * Phi has 3 rows (whoever calls has divided rows and y by the noise). It is carried as the whitener
  * G of the information matrix C = I + sum Phi' Phi and the vector b = sum Phi' y. The leading k
  * coefficients alone make a regression of their own, whose C is the leading block of C and whose
@@ -46,8 +48,8 @@ size_t tied_scratch_numbers(const struct design *design);
 void tied_place(struct tied *tied, const struct design *design, double *numbers);
 void tied_place_scratch(struct tied_scratch *scratch, const struct design *design, double *numbers);
 
-/* Knows nothing. */
-void tied_reset(struct tied *tied, const struct design *design);
+/* Knows nothing, or of what is long where it ends: tip[3] in the last frame, or NULL. */
+void tied_reset(struct tied *tied, const struct design *design, const double *tip);
 
 /* What each size makes of rows (3 x size[2], divided by the noise) and their y[3]: the squared
  * distance of y from its prediction in units of what it may differ, and the log density of y; both

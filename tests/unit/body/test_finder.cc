@@ -140,6 +140,69 @@ START_TEST(samples_along_a_line_do_not_tell)
 }
 END_TEST
 
+/* From -1 to 1: where joint i is at step k of a way on which samples have neighbours. */
+double along_the_way(int k, int i)
+{
+    return std::sin(0.05 * k * (1 + 0.37 * i) + i);
+}
+
+START_TEST(what_a_chain_leaves_of_a_soft_arm_is_no_noise)
+{
+    bed_seed();
+    body arm = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    for (int k = 0; k < 400; k++) {
+        double q[4];
+        for (int i = 0; i < 4; i++)
+            q[i] = 1.5 * along_the_way(k, i);
+        Eigen::Vector3d place = soft_tip(q);
+        samples.add(q, place.data());
+    }
+    ck_assert_int_eq(search(arm, samples).outcome, FINDER_NO_CHAIN);
+}
+END_TEST
+
+/* Of this arm 20 times the noise told is seen. */
+START_TEST(a_noise_that_nobody_told_is_seen)
+{
+    bed_seed();
+    body truth = made_up_arm(4, false);
+    Samples samples{4, {}, {}};
+    for (int k = 0; k < 400; k++) {
+        double q[4];
+        double place[3];
+        for (int i = 0; i < 4; i++)
+            q[i] = truth.chain.middle[i] + truth.range[i] * along_the_way(k, i);
+        arm_sample(&truth, finder_bed_tip, q, place);
+        for (double &one : place)
+            one += 20 * ARM_NOISE * bed_normal();
+        samples.add(q, place);
+    }
+    Answer answer = search(truth, samples);
+    ck_assert_int_eq(answer.outcome, FINDER_FOUND);
+    ck_assert_ptr_nonnull(std::strstr(answer.report.why, "times what was told"));
+    ck_assert_double_eq_tol(answer.found->noise[0], 20 * ARM_NOISE, 2 * ARM_NOISE);
+}
+END_TEST
+
+/* So few can be explained by any chain that gives way a little: it would be the wrong one. */
+START_TEST(few_samples_of_a_tool_that_bends_tell_nothing_of_the_chain)
+{
+    bed_seed();
+    body truth = made_up_arm(4, true);
+    Samples hand{4, {}, {}};
+    Samples tool{4, {}, {}};
+    add_random(hand, truth, 30);
+    for (int k = 0; k < 4; k++) {
+        const double tip[3] = {0.1, 0.25 + 0.002 * k, 0.05};
+        add_random(tool, truth, 1, tip);
+    }
+    learner_samples bends = tool.view();
+    bends.rigid = false;
+    ck_assert_int_eq(search(truth, {hand.view(), bends}).report.samples, hand.n());
+}
+END_TEST
+
 START_TEST(the_same_samples_give_the_same_bytes)
 {
     bed_seed();
@@ -168,9 +231,15 @@ END_TEST
 int main()
 {
     const TTest *const tests[] = {
-        four_joints_are_found_from_thirty_samples, seven_joints_are_found,
-        a_joint_that_slides_is_found_from_sweeps,  a_soft_arm_is_no_chain,
-        samples_along_a_line_do_not_tell,          the_same_samples_give_the_same_bytes,
+        four_joints_are_found_from_thirty_samples,
+        seven_joints_are_found,
+        a_joint_that_slides_is_found_from_sweeps,
+        a_soft_arm_is_no_chain,
+        samples_along_a_line_do_not_tell,
+        what_a_chain_leaves_of_a_soft_arm_is_no_noise,
+        a_noise_that_nobody_told_is_seen,
+        few_samples_of_a_tool_that_bends_tell_nothing_of_the_chain,
+        the_same_samples_give_the_same_bytes,
     };
     return SUITE_RUN("finder", tests);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 /* After the C++ headers: Check takes the word `fail`. */
 #include "made_up_arm.h"
 #include "tests/unit/learner/bed.h"
@@ -168,7 +169,21 @@ START_TEST(no_wrong_body_is_believed_from_a_short_walk)
 }
 END_TEST
 
-/* Two joints have moved by a degree only, yet the robot may use all of their ranges. */
+/* Of this arm a chain explains the samples whose eyes see nothing in most other postures. */
+START_TEST(what_sees_nothing_is_no_start_for_the_next_search)
+{
+    setenv("REACH_TEST_SEED", "2", 1);
+    bed_seed();
+    unsetenv("REACH_TEST_SEED");
+    body truth = made_up_arm(JOINTS, true);
+    Samples samples{JOINTS, {}, {}};
+    add_random(samples, truth, 16);
+    Answer answer = search(truth, samples);
+    ck_assert_int_eq(answer.outcome, FINDER_NOT_YET);
+    ck_assert(answer.report.doubt < 1e9 || !answer.report.any_body);
+}
+END_TEST
+
 START_TEST(a_body_is_sure_where_the_robot_may_go)
 {
     bed_seed();
@@ -275,9 +290,13 @@ END_TEST
 int main()
 {
     const TTest *const tests[] = {
-        another_chain_that_explains_as_well_is_doubt, no_wrong_body_is_believed_from_a_short_walk,
-        a_body_is_sure_where_the_robot_may_go,        a_better_body_takes_the_place_of_a_wrong_one,
-        a_wrong_body_goes_though_no_other_is_sure,    a_right_body_stays,
+        another_chain_that_explains_as_well_is_doubt,
+        no_wrong_body_is_believed_from_a_short_walk,
+        what_sees_nothing_is_no_start_for_the_next_search,
+        a_body_is_sure_where_the_robot_may_go,
+        a_better_body_takes_the_place_of_a_wrong_one,
+        a_wrong_body_goes_though_no_other_is_sure,
+        a_right_body_stays,
     };
     return SUITE_RUN("what the finder believes", tests);
 }

@@ -35,7 +35,7 @@ struct Regression {
         scratch_numbers.resize(tied_scratch_numbers(&sizes) + SPARE);
         tied_place(&regression, &sizes, numbers.data());
         tied_place_scratch(&scratch, &sizes, scratch_numbers.data());
-        tied_reset(&regression, &sizes);
+        tied_reset(&regression, &sizes, nullptr);
     }
     void learn(const RowMajor &Phi, const Eigen::Vector3d &y, double h, double keep)
     {

@@ -36,6 +36,22 @@ int experts(const struct learner *learner)
     return learner_get_statistics(learner).experts;
 }
 
+double nearest_square(const struct learner_prediction *prediction, const struct body *body,
+                      const double *x)
+{
+    double least = INFINITY;
+
+    for (int k = 0; k < prediction->n_solutions; k++) {
+        double square = 0.0;
+        for (int i = 0; i < 3; i++) {
+            double off = (prediction->solution[k].value[i] - x[i]) / body->noise[i];
+            square += off * off / 3.0;
+        }
+        least = fmin(least, square);
+    }
+    return least;
+}
+
 double misfit(struct learner *learner, const struct body *body, const double *tip)
 {
     static struct learner_prediction prediction;
@@ -44,20 +60,11 @@ double misfit(struct learner *learner, const struct body *body, const double *ti
 
     for (int s = 0; s < 100; s++) {
         double z[JOINTS], x[3];
-        double least = INFINITY;
         random_joints(body, z);
         if (!arm_output(body, tip, z, x))
             continue;
         learner_predict(learner, z, &prediction);
-        for (int k = 0; k < prediction.n_solutions; k++) {
-            double square = 0.0;
-            for (int i = 0; i < 3; i++) {
-                double off = (prediction.solution[k].value[i] - x[i]) / body->noise[i];
-                square += off * off / 3.0;
-            }
-            least = fmin(least, square);
-        }
-        sum += least;
+        sum += nearest_square(&prediction, body, x);
         n++;
     }
     ck_assert_int_gt(n, 50);

@@ -19,6 +19,10 @@ void teach(struct learner *learner, const struct body *body, const double *tip, 
 
 int experts(const struct learner *learner);
 
+/* How far the nearest of all solutions is from x, squared, a coordinate, in units of the noise. */
+double nearest_square(const struct learner_prediction *prediction, const struct body *body,
+                      const double *x);
+
 /* In units of the noise, over random postures: how far the nearest of all solutions is, rms. */
 double misfit(struct learner *learner, const struct body *body, const double *tip);
 

@@ -6,15 +6,21 @@ import json
 import math
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 from reach import accuracy, body_accuracy
 from reach.arm import TOOLS, Arm
-from reach.body_stream import DIFFERENT, BodyStudy, NeverWorse, Stream
+from reach.batch_body import fit
+from reach.body_stream import DIFFERENT, BodyStudy, Half, NeverWorse, Stream
 from reach.body_studies import body_studies
+from reach.curves.gazing_arm import another
 from reach.screws import franka_like, sweeps, ten_joints, turned
 from reach.studies import Bar
+
+NOISE = np.array([0.015, 0.015, 0.12])  # of a fixation: deg, deg, px
 
 
 class Arms(unittest.TestCase):
@@ -102,6 +108,20 @@ class Verdicts(unittest.TestCase):
         self.assertTrue(body_accuracy.rows_of(study, [draw_of(1.0, 1.1)])[0]["met"])
         self.assertFalse(body_accuracy.rows_of(study, [draw_of(1.2, 1.1)])[0]["met"])
 
+    def test_time_is_to_be_half_of_the_polynomials(self):
+        study = study_of(Half("x", 1, lambda r: r["x"], 0))
+        (row,) = body_accuracy.rows_of(study, [draw_of(1.0, 2.1)])
+        self.assertTrue(row["met"])
+        self.assertIn("0.5 of polynomials", body_accuracy.table([row]))
+        self.assertFalse(body_accuracy.rows_of(study, [draw_of(1.0, 1.9)])[0]["met"])
+
+    def test_a_batch_fit_of_the_same_rows_moves_the_bar(self):
+        study = study_of(Bar("x", 1, lambda r: r["x"], 1.0))
+        for batch, met in ((2.0, True), (1.5, False)):
+            (row,) = body_accuracy.rows_of(study, [draw_of(2.3, 9.0) | {"batch": {"x": batch}}])
+            self.assertEqual(row["met"], met)
+            self.assertIn(f"batch fit: {batch:g}", body_accuracy.table([row]))
+
     def test_no_answer_is_not_met(self):
         study = study_of(Bar("x", 1, lambda r: 1e3 * r["x"], 2.0))
         rows = body_accuracy.rows_of(study, [draw_of(None, 1.0)])
@@ -113,6 +133,23 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(seeds, body_accuracy.seeds_of(12 * "a", 10))
         self.assertEqual(len(set(seeds)), 10)
         self.assertNotEqual(seeds, body_accuracy.seeds_of(40 * "b", 10))
+
+
+class Batch(unittest.TestCase):
+    def test_it_finds_a_robot_of_the_kind_with_two_tools(self):
+        rng = np.random.default_rng(4)
+        arm, rows = another(rng), []
+        for tool in (arm.hand, arm.tube):
+            robot = replace(arm, hand=tool)
+            q = robot.postures(60, rng)
+            x = robot.fixate(robot.place(q, False)) * [180 / np.pi, 180 / np.pi, 1]
+            rows.append(np.hstack([q, x]))
+        seen = [np.hstack([one[:, :4], one[:, 4:] + NOISE * rng.standard_normal((60, 3))])
+                for one in rows]  # fmt: skip
+        found = fit(seen, tuple(NOISE))
+        for tool, one in enumerate(rows):
+            off = found.predict(one[:, :4], tool, seen[tool][:, 4:]) - one[:, 4:]
+            self.assertLess(np.sqrt(np.mean((off / NOISE) ** 2)), 1.0)
 
 
 class Whole(unittest.TestCase):
@@ -127,6 +164,19 @@ class Whole(unittest.TestCase):
         self.assertEqual(summary["seeds"], body_accuracy.seeds_of("c0ffee", 2))
         self.assertIn("random postures of the hand", said.getvalue())
         self.assertIn("c0ffee", page)
+
+    def test_what_was_measured_is_not_measured_again(self):
+        with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(io.StringIO()):
+            arguments = ["--only", "body_postures", "--draws", "1", "--commit", "c0ffee",
+                         "--learners", "body", "--out", name]  # fmt: skip
+            self.assertEqual(accuracy.main(arguments), 0)
+            first = (Path(name) / "body.json").read_text()
+            with mock.patch.object(body_accuracy, "reach_eval", side_effect=AssertionError):
+                self.assertEqual(accuracy.main([*arguments, "--resume"]), 0)
+                self.assertEqual((Path(name) / "body.json").read_text(), first)
+                for other in ([], ["--resume", "--param", "ridge=1e-4"]):
+                    with self.assertRaises(AssertionError):
+                        accuracy.main([*arguments, *other])
 
     def test_studies_of_both_kinds_do_not_mix(self):
         with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
