@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "learner/imle/evidence.h"
+#include "learner/imle/lab.h"
 
 /* The account is a mean over so many samples, at most; that of the typical error over fewer. */
 static const double memory = 1000.0;
@@ -13,25 +14,29 @@ static const double newest = 300.0;
 /* A tolerance is psi0 at first, as if so many samples had shown it, and less of them the more there
  * have been; then the mean square error, times `margin` where that is less than psi0. */
 static const double assumed = 100.0;
-static const double margin = 9.0;
 
 /* Mean square of a vector of three errors, by the square of its mean size. */
-static const double square_by_size = 1.18;
+static const double square_by_size = 1.571;
 
-/* Errors that follow each other are alike where an expert cannot express what it is to learn. They
- * tell of as many fewer errors, and so of larger ones elsewhere; up to this correlation. */
-static const double most_alike = 0.8;
 
 /* What an expert that has seen nothing may be wrong by, in units of sqrt(Psi_bar), at least: half
  * of the outputs' range, by the recipe for psi0 (docs/learner.md). */
 static const double least_range = 25.0;
+
+double imle_error(const struct imle_strengths *s)
+{
+    double prior = assumed * (1.0 - s->known / memory);
+    return (prior + s->known * s->error) / (prior + s->known);
+}
 
 double imle_tolerance(const struct imle_strengths *s)
 {
     double prior = assumed * (1.0 - s->known / memory);
     double error = (prior + s->known * s->error) / (prior + s->known);
 
-    return fmax(error, fmin(1.0, margin * error));
+    static double cap, mar;
+    if (cap == 0) cap = lab("CAP", 1e9), mar = lab("MARGIN", 9);
+    return fmin(cap, fmax(error, fmin(1.0, mar * error)));
 }
 
 void imle_note_output(struct imle *m, const double *x)
@@ -67,6 +72,7 @@ void imle_note_error(struct imle *m, int j)
 {
     struct imle_strengths *s = &m->state.strengths[j];
     double *residual = m->state.residual + (size_t)j * (size_t)m->D;
+    double *typical = m->state.typical + (size_t)j * (size_t)m->D;
     double xhat[LEARNER_MAX_OUTPUTS];
     double square = 0.0;
     double again = 0.0;
@@ -79,18 +85,22 @@ void imle_note_error(struct imle *m, int j)
         square += off * off / m->D;
         again += off * residual[i] / m->D;
         residual[i] = off;
+        typical[i] += (fabs(off) - typical[i]) / fmin(1.0 + s->known / lab("WIN", 1), newest);
     }
     s->known = fmin(s->known + 1.0, memory);
     s->error += (square - s->error) / s->known;
     s->again += (again - s->again) / s->known;
-    s->typical += (sqrt(square) - s->typical) / fmin(s->known, newest);
 }
 
-double imle_stated_variance(const struct imle *m, int j, double gamma)
+void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance)
 {
     const struct imle_strengths *s = &m->state.strengths[j];
-    double alike = fmax(0.0, fmin(most_alike, s->again / s->error));
-    double own = square_by_size * s->typical * s->typical;
+    const double *typical = m->state.typical + (size_t)j * (size_t)m->D;
+    static double most; if (most==0) most = lab("ALIKE", 0.8);
+    double alike = fmax(0.0, fmin(most, s->again / s->error));
+    double doubt = doubt_of(m, gamma);
 
-    return doubt_of(m, gamma) + own * (1.0 + alike) / (1.0 - alike);
+    for (int i = 0; i < m->D; i++)
+        variance[i] = m->state.psi_bar[i] * (doubt + square_by_size * typical[i] * typical[i] *
+                                                         (1.0 + alike) / (1.0 - alike));
 }

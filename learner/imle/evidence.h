@@ -20,7 +20,7 @@ void imle_note_output(struct imle *m, const double *x);
 void imle_note_error(struct imle *m, int j);
 
 /* The variance of a new sample about the answer of expert j, whose uncertainty there is gamma. */
-double imle_stated_variance(const struct imle *m, int j, double gamma);
+void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance);
 
 /* imle/evidence.c -------------------------------------------------------------------------- */
 
@@ -46,4 +46,8 @@ void imle_candidates_wait(struct imle *m);
  */
 void imle_remove_needless(struct imle *m);
 
+double imle_error(const struct imle_strengths *s);
+void imle_remember(struct imle *m, int j, const double *z, const double *x);
+void imle_ask_whether_needed(struct imle *m);
+int imle_place_for_twin(struct imle *m);
 #endif

@@ -21,6 +21,9 @@
 extern "C" {
 #endif
 
+/* Samples that an expert remembers (births by evidence). */
+enum { IMLE_REMEMBERED = 8 };
+
 /* Numbers of one expert that are not vectors. */
 struct imle_strengths {
     double H;           /* responsibility taken, all told */
@@ -35,8 +38,10 @@ struct imle_strengths {
     double score;   /* of a candidate: samples that it foretold, the older ones count less */
     double known;   /* samples where it claimed to know, for */
     double error;   /* the mean square of what it was wrong by there, in units of Psi_bar */
+    double remembers; /* samples remembered */
+    double need[IMLE_REMEMBERED];
+    double tested;
     double again;   /* the mean product of two such errors, one after the other */
-    double typical; /* their mean size, the newest ones': large ones count less */
 };
 
 /* Most answers that one prediction weighs against each other: it bounds the time. */
@@ -96,6 +101,8 @@ struct imle_state {
     double *ridge;       /* p: what forgetting has left of the ridge in C */
     double *ssr;         /* D: squared residuals */
     double *psi;         /* D: Psi_j */
+    double *typical;     /* D: mean size of the newest errors, the same unit */
+    double *remembered;  /* IMLE_REMEMBERED x (d + D): some of its samples */
     double *residual;    /* D: what it was wrong by last, in units of sqrt(Psi_bar) */
 };
 
