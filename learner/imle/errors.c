@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "learner/imle/evidence.h"
+#include <stdio.h>
 #include "learner/imle/lab.h"
 
 /* The account is a mean over so many samples, at most; that of the typical error over fewer. */
@@ -59,7 +60,8 @@ static double doubt_of(const struct imle *m, double gamma)
 
     for (int i = 0; i < m->D; i++)
         spread += m->state.seen[m->D + i] / (m->state.psi_bar[i] * m->D);
-    double range = fmax(least_range * least_range, spread);
+    static double r; if (r == 0) r = lab("RANGE", 25), (void)least_range;
+    double range = fmax(r * r, lab("SPREAD", 1) * spread);
     return gamma * fmax(1.0, range * m->config.ridge / m->config.noise_share);
 }
 
@@ -89,6 +91,14 @@ void imle_note_error(struct imle *m, int j)
     }
     s->known = fmin(s->known + 1.0, memory);
     s->error += (square - s->error) / s->known;
+    if (s->known >= memory) {
+        s->least = fmin(s->least, s->error);
+        if (s->error > lab("GROW", 1e9) * s->least && s->fading <= 0.0) {
+            s->least = s->error;
+            s->fading = lab("OVER", 500);
+            if (lab("SAY", 0) > 0) fprintf(stderr, "%g: %d fades, error %g, S %g\n", m->state.samples, j, s->error, s->S);
+        }
+    }
     s->again += (again - s->again) / s->known;
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
+#include "learner/imle/lab.h"
 
 /* Weight and scatter that an expert has before its first sample. */
 static const double birth_weight = 1e-6;
@@ -152,6 +153,7 @@ void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, 
         .prior_psi = m->config.prior_psi,
         .known = 1.0,
         .error = 1.0,
+        .least = 1.0,
     };
     memcpy(at(m->state.nu, j, d), z, d * sizeof(double));
     memcpy(at(m->state.nu0, j, d), z, d * sizeof(double));
@@ -324,6 +326,10 @@ static void restore_ridge(struct imle *m, int j, double delta)
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x)
 {
     double delta = decay(m->state.strengths[j].H, h, m->config.alpha);
+    if (m->state.strengths[j].fading > 0.0) {
+        m->state.strengths[j].fading -= 1.0;
+        delta *= exp(log(lab("FADE", 0.1)) / lab("OVER", 500));
+    }
 
     learn_regression(m, j, h, delta, x);
     restore_ridge(m, j, delta);

@@ -40,7 +40,8 @@ struct imle_strengths {
     double error;   /* the mean square of what it was wrong by there, in units of Psi_bar */
     double remembers; /* samples remembered */
     double need[IMLE_REMEMBERED];
-    double tested;
+    double least;   /* least mean square so far */
+    double fading;  /* samples in which the past is still to fade */
     double again;   /* the mean product of two such errors, one after the other */
 };
 
