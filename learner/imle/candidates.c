@@ -167,8 +167,3 @@ void imle_remove_needless(struct imle *m)
         }
     }
 }
-
-int imle_place_for_twin(struct imle *m)
-{
-    return place_among_experts(m, 0.0);
-}

@@ -5,8 +5,6 @@
 #include <math.h>
 
 #include "learner/imle/evidence.h"
-#include <stdio.h>
-#include "learner/imle/lab.h"
 
 /* The account is a mean over so many samples, at most; that of the typical error over fewer. */
 static const double memory = 1000.0;
@@ -15,29 +13,35 @@ static const double newest = 300.0;
 /* A tolerance is psi0 at first, as if so many samples had shown it, and less of them the more there
  * have been; then the mean square error, times `margin` where that is less than psi0. */
 static const double assumed = 100.0;
+static const double margin = 9.0;
 
-/* Mean square of a vector of three errors, by the square of its mean size. */
-static const double square_by_size = 1.571;
+/* Mean square of a Gaussian error, by the square of its mean size. */
+static const double square_by_size = 1.5708;
 
+/* Errors that follow each other are alike where an expert cannot express what it is to learn. They
+ * tell of as many fewer errors, and so of larger ones elsewhere; up to this correlation. */
+static const double most_alike = 0.8;
 
 /* What an expert that has seen nothing may be wrong by, in units of sqrt(Psi_bar), at least: half
  * of the outputs' range, by the recipe for psi0 (docs/learner.md). */
 static const double least_range = 25.0;
 
+/* The world has moved where the mean square error has grown by this much over its least. What an
+ * expert cannot express is there from the start, and grows no further. */
+static const double moved = 2.0;
+
 double imle_error(const struct imle_strengths *s)
 {
     double prior = assumed * (1.0 - s->known / memory);
+
     return (prior + s->known * s->error) / (prior + s->known);
 }
 
 double imle_tolerance(const struct imle_strengths *s)
 {
-    double prior = assumed * (1.0 - s->known / memory);
-    double error = (prior + s->known * s->error) / (prior + s->known);
+    double error = imle_error(s);
 
-    static double cap, mar;
-    if (cap == 0) cap = lab("CAP", 1e9), mar = lab("MARGIN", 9);
-    return fmin(cap, fmax(error, fmin(1.0, mar * error)));
+    return fmax(error, fmin(1.0, margin * error));
 }
 
 void imle_note_output(struct imle *m, const double *x)
@@ -53,21 +57,34 @@ void imle_note_output(struct imle *m, const double *x)
 }
 
 /* gamma, but so that an expert that has seen nothing may be wrong by the range, or the spread of
- * all outputs where that is more: psi0 may be told too small. */
-static double doubt_of(const struct imle *m, double gamma)
+ * all outputs where that is more: psi0 may be told too small. The samples' noise is `noise`, in
+ * units of Psi_bar. */
+static double doubt_of(const struct imle *m, double gamma, double noise)
 {
     double spread = 0.0;
 
     for (int i = 0; i < m->D; i++)
         spread += m->state.seen[m->D + i] / (m->state.psi_bar[i] * m->D);
-    static double r; if (r == 0) r = lab("RANGE", 25), (void)least_range;
-    double range = fmax(r * r, lab("SPREAD", 1) * spread);
-    return gamma * fmax(1.0, range * m->config.ridge / m->config.noise_share);
+    double range = fmax(least_range * least_range, spread);
+    return gamma * fmax(noise, range * m->config.ridge) / m->config.noise_share;
 }
 
 double imle_doubt(struct imle *m, int j)
 {
-    return doubt_of(m, imle_expert_gamma(m, j));
+    return doubt_of(m, imle_expert_gamma(m, j), m->config.noise_share);
+}
+
+/* Old samples are to fade where errors have grown. From then on the errors of today are the
+ * measure. */
+static void see_whether_the_world_moved(struct imle_strengths *s)
+{
+    if (s->known < memory)
+        return;
+    if (s->fading <= 0.0 && s->error > moved * s->least) {
+        s->fading = IMLE_FADING;
+        s->least = s->error;
+    }
+    s->least = fmin(s->least, s->error);
 }
 
 void imle_note_error(struct imle *m, int j)
@@ -81,36 +98,29 @@ void imle_note_error(struct imle *m, int j)
 
     if (!(imle_doubt(m, j) < 1.0))
         return;
+    s->known = fmin(s->known + 1.0, memory);
     imle_expert_output(m, j, xhat);
     for (int i = 0; i < m->D; i++) {
         double off = (m->query.target[i] - xhat[i]) / sqrt(m->state.psi_bar[i]);
         square += off * off / m->D;
         again += off * residual[i] / m->D;
         residual[i] = off;
-        typical[i] += (fabs(off) - typical[i]) / fmin(1.0 + s->known / lab("WIN", 1), newest);
+        typical[i] += (fabs(off) - typical[i]) / fmin(0.5 * (s->known + 1.0), newest);
     }
-    s->known = fmin(s->known + 1.0, memory);
     s->error += (square - s->error) / s->known;
-    if (s->known >= memory) {
-        s->least = fmin(s->least, s->error);
-        if (s->error > lab("GROW", 1e9) * s->least && s->fading <= 0.0) {
-            s->least = s->error;
-            s->fading = lab("OVER", 500);
-            if (lab("SAY", 0) > 0) fprintf(stderr, "%g: %d fades, error %g, S %g\n", m->state.samples, j, s->error, s->S);
-        }
-    }
     s->again += (again - s->again) / s->known;
+    see_whether_the_world_moved(s);
 }
 
 void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance)
 {
     const struct imle_strengths *s = &m->state.strengths[j];
     const double *typical = m->state.typical + (size_t)j * (size_t)m->D;
-    static double most; if (most==0) most = lab("ALIKE", 0.8);
-    double alike = fmax(0.0, fmin(most, s->again / s->error));
-    double doubt = doubt_of(m, gamma);
+    double alike = fmax(0.0, fmin(most_alike, s->again / s->error));
 
-    for (int i = 0; i < m->D; i++)
-        variance[i] = m->state.psi_bar[i] * (doubt + square_by_size * typical[i] * typical[i] *
-                                                         (1.0 + alike) / (1.0 - alike));
+    for (int i = 0; i < m->D; i++) {
+        double own = square_by_size * typical[i] * typical[i];
+        double doubt = doubt_of(m, gamma, fmin(m->config.noise_share, own));
+        variance[i] = m->state.psi_bar[i] * (doubt + own * (1.0 + alike) / (1.0 - alike));
+    }
 }

@@ -12,9 +12,6 @@
 
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
-#include "learner/imle/lab.h"
-#include <stdio.h>
-#include <string.h>
 
 /* A sample is learned by the experts that have at least this share of it. A smaller one would be as
  * much as a whole to an expert that has seen nothing there. */
@@ -35,20 +32,15 @@ bool imle_explains(struct imle *m, int j)
     double most = -2.0 * m->log_c_joint;
     double misfit = imle_expert_misfit(m, j);
 
-    static double pen; if (pen == 0) pen = lab("PEN", 1e9);
-    if (misfit <= most && pen > 1e8) return true;
-    double width = 1.0 + doubt_of(m, j);
-    if (pen < 0) {
-        double raw = 1.0 + imle_expert_gamma(m, j);
-        return m->D * elementary_log(raw) + misfit / width <= most;
-    }
-    return misfit <= most * width && m->D * elementary_log(width) + misfit / width <= most + pen;
+    if (misfit > most && misfit > most * (1.0 + doubt_of(m, j)))
+        return false;
+    return m->D * elementary_log(1.0 + imle_expert_gamma(m, j)) + misfit / (1.0 + doubt_of(m, j)) <=
+           most;
 }
 
 double imle_cost(struct imle *m, int j)
 {
-    static double share = -1; if (share < 0) share = lab("WIDE", 1);
-    double width = 1.0 + share * doubt_of(m, j);
+    double width = 1.0 + doubt_of(m, j);
 
     return m->D * elementary_log(width) + imle_expert_misfit(m, j) / width;
 }
@@ -59,9 +51,9 @@ static double least_cost(struct imle *m, double misfit)
     return misfit <= m->D ? misfit : m->D * (1.0 + elementary_log(misfit / m->D));
 }
 
-/* m->query.log_h of all experts: at first a bound above it, log h_j before normalising were nobody in
- * doubt. Returns the expert with the largest bound, or -1. */
-static int bound(struct imle *m)
+/* m->query.log_h of all experts: a bound above log h_j before normalising. Returns the expert with
+ * the largest, or -1. */
+static int bound_shares(struct imle *m)
 {
     double *log_h = m->query.log_h;
     int best = -1;
@@ -77,20 +69,28 @@ static int bound(struct imle *m)
     return best;
 }
 
-/* Where the bound comes near the largest log h_j, that takes its place. It begins with the best
- * bound, so that the others are seldom asked. Returns the expert with the largest, or -1. */
+/* log h_j itself in the place of its bound. */
+static void sharpen(struct imle *m, int j)
+{
+    m->query.log_h[j] += 0.5 * (least_cost(m, imle_expert_misfit(m, j)) - imle_cost(m, j));
+}
+
+/* log h_j of all experts; where it cannot come near the largest, the bound, which does not either.
+ * The best bound comes first, so that the others' doubts, which are dear, are seldom asked. Returns
+ * the expert with the largest, or -1. */
 static int weigh(struct imle *m)
 {
-    double *log_h = m->query.log_h;
-    int first = bound(m);
+    const double *log_h = m->query.log_h;
+    int first = bound_shares(m);
     int best = first;
 
-    for (int k = -1; best >= 0 && k < m->state.M; k++) {
-        int j = k < 0 ? first : k;
-        if ((k == first) || imle_vacant(m, j) || (k >= 0 && log_h[j] < log_h[best] - too_far_behind))
+    if (first < 0)
+        return -1;
+    sharpen(m, first);
+    for (int j = 0; j < m->state.M; j++) {
+        if (j == first || imle_vacant(m, j) || log_h[j] < log_h[best] - too_far_behind)
             continue;
-        double misfit = imle_expert_misfit(m, j);
-        log_h[j] += 0.5 * (least_cost(m, misfit) - imle_cost(m, j));
+        sharpen(m, j);
         if (log_h[j] > log_h[best])
             best = j;
     }
@@ -126,49 +126,6 @@ static void learn_shares(struct imle *m, int best, const double *z, const double
     imle_remember(m, best, z, x);
 }
 
-static double *part(double *a, int j, size_t n) { return a + (size_t)j * n; }
-
-static void weaken(struct imle *m, int j, double left)
-{
-    struct imle_strengths *s = &m->state.strengths[j];
-    size_t D = (size_t)m->D;
-    double grow = 1.0 / sqrt(left);
-    s->S *= left; s->H *= left;
-    double *G = part(m->state.whitener, j, whitener_row(m->p));
-    for (size_t i = 0; i < whitener_row(m->p); i++) G[i] *= grow;
-    G = part(m->state.spread, j, whitener_row(m->d));
-    s->prior_sigma *= left;
-    for (size_t i = 0; i < whitener_row(m->d); i++) G[i] *= grow;
-    for (int i = 0; i < m->p; i++) part(m->state.ridge, j, (size_t)m->p)[i] *= left;
-    s->known = 1.0; s->error = 1.0; s->again = 0.0;
-    for (size_t i = 0; i < D; i++) part(m->state.typical, j, D)[i] = 1.0;
-    for (size_t i = 0; i < D; i++) part(m->state.ssr, j, D)[i] *= left;
-}
-
-static bool split(struct imle *m, int j)
-{
-    struct imle_strengths *s = &m->state.strengths[j];
-    const double *r = part(m->state.residual, j, (size_t)m->D);
-    double sq = 0;
-    for (int i = 0; i < m->D; i++) sq += r[i] * r[i] / m->D;
-    if (s->known < lab("KNOWN", 30) || s->error < lab("SPLIT", 1e9) || s->again > 0.5 * s->error || sq < 0.5 * s->error || sq > 2 * s->error)
-        return false;
-    int to = imle_place_for_twin(m);
-    if (to < 0) return false;
-    double left = fmin(1.0, lab("LEFT", 20) / s->S);
-    if (lab("SAY", 0) > 0) fprintf(stderr, "split %d -> %d at %g: error %g again %g S %g\n", j, to, m->state.samples, s->error, s->again, s->S);
-    weaken(m, j, left);
-    imle_expert_copy(m, j, to);
-    for (int i = 0; i < m->D; i++) {
-        double off = r[i] * sqrt(m->state.psi_bar[i]);
-        part(m->state.xbar, j, (size_t)m->D)[i] += off;
-        part(m->state.xbar, to, (size_t)m->D)[i] -= off;
-    }
-    imle_expert_refresh(m, j);
-    imle_expert_refresh(m, to);
-    return true;
-}
-
 enum learner_update_result imle_learn_by_evidence(struct imle *m, const double *z, const double *x)
 {
     enum learner_update_result result = LEARNER_UPDATED;
@@ -178,23 +135,13 @@ enum learner_update_result imle_learn_by_evidence(struct imle *m, const double *
     m->state.samples += 1.0;
     imle_note_output(m, x);
     int best = weigh(m);
-    if (anybody_explains(m, best)) {
+    if (anybody_explains(m, best))
         learn_shares(m, best, z, x);
-        split(m, best);
-    }
     else
         result = imle_nurse(m, z, x);
     imle_candidates_wait(m);
     imle_remove_needless(m);
-    static double dump; if (dump == 0) dump = lab("DUMP", -1);
-    if (dump > 0 && fmod(m->state.samples, dump) == 0) {
-        fprintf(stderr, "-- %g: candidates %d\n", m->state.samples, m->state.candidates);
-        for (int j = 0; j < m->state.M; j++) {
-            struct imle_strengths *t = &m->state.strengths[j];
-            fprintf(stderr, "  %d S %.4g H %.4g last %.0f known %.0f error %.3g again %.2g row %g\n", j, t->S, t->H, t->last - m->state.samples, t->known, t->error, t->again / t->error, t->row);
-        }
-    }
-    if (lab("NEEDS", 1) > 0) imle_ask_whether_needed(m);
+    imle_remove_unneeded(m);
     imle_priors_update(m);
     return result;
 }

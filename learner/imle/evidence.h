@@ -6,6 +6,9 @@
 
 /* imle/errors.c: variances are in units of Psi_bar ------------------------------------------- */
 
+/* The mean square of what an expert is wrong by where it knows. */
+double imle_error(const struct imle_strengths *s);
+
 /* What an expert may be wrong by where it knows: its Psi. */
 double imle_tolerance(const struct imle_strengths *s);
 
@@ -19,7 +22,8 @@ void imle_note_output(struct imle *m, const double *x);
 /* Takes note of what expert or candidate j is wrong by, before it learns the sample. */
 void imle_note_error(struct imle *m, int j);
 
-/* The variance of a new sample about the answer of expert j, whose uncertainty there is gamma. */
+/* The variances of a new sample about the answer of expert j, whose uncertainty there is gamma; in
+ * units of the outputs, squared. */
 void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance);
 
 /* imle/evidence.c -------------------------------------------------------------------------- */
@@ -46,8 +50,13 @@ void imle_candidates_wait(struct imle *m);
  */
 void imle_remove_needless(struct imle *m);
 
-double imle_error(const struct imle_strengths *s);
+/* imle/needs.c ----------------------------------------------------------------------------- */
+
+/* Expert or candidate j has learned this sample, and may remember it. */
 void imle_remember(struct imle *m, int j, const double *z, const double *x);
-void imle_ask_whether_needed(struct imle *m);
-int imle_place_for_twin(struct imle *m);
+
+/* Asks again about one remembered sample in a while, and takes the expert away that nothing needs
+ * any more. What m->query knew of the newest sample is gone. */
+void imle_remove_unneeded(struct imle *m);
+
 #endif

@@ -10,11 +10,14 @@
 
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
-#include "learner/imle/lab.h"
 
 /* Weight and scatter that an expert has before its first sample. */
 static const double birth_weight = 1e-6;
 static const double birth_scatter = 1e-6;
+
+/* What is left of an expert's past after one of IMLE_FADING samples, where the world has moved: 3 %
+ * after all of them. */
+static const double fading = 0.9826;
 
 /* Where a vacant place's centre is: its density underflows at any query. */
 static const double out_of_reach = 1e30;
@@ -325,12 +328,13 @@ static void restore_ridge(struct imle *m, int j, double delta)
 
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x)
 {
-    double delta = decay(m->state.strengths[j].H, h, m->config.alpha);
-    if (m->state.strengths[j].fading > 0.0) {
-        m->state.strengths[j].fading -= 1.0;
-        delta *= exp(log(lab("FADE", 0.1)) / lab("OVER", 500));
-    }
+    struct imle_strengths *s = &m->state.strengths[j];
+    double delta = decay(s->H, h, m->config.alpha);
 
+    if (s->fading > 0.0) {
+        s->fading -= 1.0;
+        delta *= fading;
+    }
     learn_regression(m, j, h, delta, x);
     restore_ridge(m, j, delta);
     learn_gate(m, j, h, delta, z);

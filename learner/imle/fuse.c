@@ -115,8 +115,8 @@ static void state_variance(const struct imle *m, const struct fusion *fusion,
         const double *psi = psi_of(m, answer);
         for (int i = 0; i < m->D; i++) {
             double off = answer->xhat[i] - solution->value[i];
-            solution->variance[i] += answer->share / psi[i] / fusion->sum_precision[i] *
-                                     (own[i] + off * off);
+            solution->variance[i] +=
+                answer->share / psi[i] / fusion->sum_precision[i] * (own[i] + off * off);
         }
     }
 }

@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-/* Samples that an expert remembers (births by evidence). */
+/* Samples that an expert remembers, where births are by evidence. */
 enum { IMLE_REMEMBERED = 8 };
 
 /* Numbers of one expert that are not vectors. */
@@ -31,18 +31,18 @@ struct imle_strengths {
     double prior_sigma; /* w_Sigma, w_nu, w_Psi after forgetting */
     double prior_nu;
     double prior_psi;
-    double turn;    /* coordinate whose ridge is topped up next */
-    double last;    /* number of the newest sample that was mostly its own; under 0: the place is
-                       vacant (births by evidence alone, as what follows) */
-    double row;     /* a candidate's newest samples that came in a row */
-    double score;   /* of a candidate: samples that it foretold, the older ones count less */
-    double known;   /* samples where it claimed to know, for */
-    double error;   /* the mean square of what it was wrong by there, in units of Psi_bar */
-    double remembers; /* samples remembered */
-    double need[IMLE_REMEMBERED];
-    double least;   /* least mean square so far */
-    double fading;  /* samples in which the past is still to fade */
-    double again;   /* the mean product of two such errors, one after the other */
+    double turn;      /* coordinate whose ridge is topped up next */
+    double last;      /* number of the newest sample that was mostly its own; under 0: the place is
+                         vacant (births by evidence alone, as what follows) */
+    double row;       /* a candidate's newest samples that came in a row */
+    double score;     /* of a candidate: samples that it foretold, the older ones count less */
+    double known;     /* samples where it claimed to know, for */
+    double error;     /* the mean square of what it was wrong by there, in units of Psi_bar */
+    double again;     /* the mean product of two such errors, one after the other */
+    double least;     /* what `error` was at its least since the world stood still, and */
+    double fading;    /* samples in which the past is still to fade */
+    double remembers; /* samples remembered, and for each of them */
+    double need[IMLE_REMEMBERED]; /* how much worse the others would explain it (needs.c) */
 };
 
 /* Most answers that one prediction weighs against each other: it bounds the time. */
@@ -50,6 +50,9 @@ enum { IMLE_MOST_ANSWERS = 256 };
 
 /* Most experts to be at a time. */
 enum { IMLE_CANDIDATES = 2 };
+
+/* Samples in which an expert's past fades when the world has moved (expert.c). */
+enum { IMLE_FADING = 200 };
 
 /* Experts to a block of the sums behind the shared priors. */
 enum { IMLE_SUM = 32 };

@@ -1,72 +1,120 @@
+/* Which experts are still needed, where births are by evidence. While branches take turns before
+ * any of them is known, experts learn a piece of one and a piece of another. Once the branches are
+ * known as a whole, every sample of such an expert is explained at least as well by somebody else:
+ * it has to go, or it would be a solution for ever.
+ *
+ * So each expert remembers a few of its samples, spread over all that it has learned. One after the
+ * other is asked again: by how much would the best of the other experts explain it worse? An expert
+ * goes when that is little for all of them together. What is known alone is needed, however long
+ * nothing has been its own. */
 #include <math.h>
-#include <stdio.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
-#include "learner/imle/lab.h"
-#include <stdint.h>
 
-static double *slot(struct imle *m, int j, int k)
+/* One remembered sample is asked about in so many samples. */
+static const double asked_every = 4.0;
+
+/* An expert is not needed where its samples would cost less than this more without it, in the mean
+ * and as -2 log of a density. One sample counts as this much at most, for it may be an outlier. */
+static const double little = 1.0;
+static const double most = 4.0;
+
+/* Fewer samples than this tell nothing. */
+static const double enough = 3.0;
+
+static double *remembered(const struct imle *m, int j, int k)
 {
     return m->state.remembered + ((size_t)j * IMLE_REMEMBERED + (size_t)k) * (size_t)(m->d + m->D);
+}
+
+/* A number from 0 to 1 that looks like chance, and is always the same for the same sample. */
+static double chance_of(double sample)
+{
+    uint64_t bits = (uint64_t)sample * 0x9E3779B97F4A7C15U;
+
+    bits = (bits ^ (bits >> 29)) * 0xBF58476D1CE4E5B9U;
+    return (double)((bits ^ (bits >> 32)) >> 11) * 0x1p-53;
 }
 
 void imle_remember(struct imle *m, int j, const double *z, const double *x)
 {
     struct imle_strengths *s = &m->state.strengths[j];
-    int k = (int)s->remembers;
+    double place = s->remembers;
 
-    if (k >= IMLE_REMEMBERED) {
-        uint64_t bits = (uint64_t)m->state.samples * 0x9E3779B97F4A7C15u;
-        bits ^= bits >> 29; bits *= 0xBF58476D1CE4E5B9u; bits ^= bits >> 32;
-        double chance = (double)(bits >> 11) * 0x1p-53 * fmax(s->H, IMLE_REMEMBERED);
-        if (!(chance < IMLE_REMEMBERED)) return;
-        k = (int)chance;
-    } else
+    if (place < IMLE_REMEMBERED)
         s->remembers += 1.0;
-    s->need[k] = 4.0;
-    memcpy(slot(m, j, k), z, (size_t)m->d * sizeof *z);
-    memcpy(slot(m, j, k) + m->d, x, (size_t)m->D * sizeof *x);
+    else
+        place = chance_of(m->state.samples) * fmax(s->H, IMLE_REMEMBERED);
+    if (place >= IMLE_REMEMBERED)
+        return;
+    double *sample = remembered(m, j, (int)place);
+    s->need[(int)place] = most;
+    memcpy(sample, z, (size_t)m->d * sizeof *z);
+    memcpy(sample + m->d, x, (size_t)m->D * sizeof *x);
 }
 
-static double honest_cost(struct imle *m, int j)
+/* -2 log of the density of the sample's output, with the errors that expert j is known to make. */
+static double cost_by_errors(struct imle *m, int j)
 {
     const struct imle_strengths *s = &m->state.strengths[j];
     double width = imle_error(s) + imle_doubt(m, j);
+
     return m->D * elementary_log(width) + imle_expert_misfit(m, j) * imle_tolerance(s) / width;
 }
 
-static double need(struct imle *m, int j)
+/* By how much the sample would cost more without expert j. */
+static double need_of(struct imle *m, int j)
 {
-    double own = honest_cost(m, j);
-    double other = INFINITY;
+    double own = cost_by_errors(m, j);
+    double more = most;
+
     for (int k = 0; k < m->state.M; k++) {
-        if (k == j || imle_vacant(m, k)) continue;
-        double sq = fmax(1e-9, imle_expert_misfit(m, k) * imle_tolerance(&m->state.strengths[k]));
-        if (m->D * (1.0 + elementary_log(sq / m->D)) > own + 4.0) continue;
-        other = fmin(other, honest_cost(m, k));
+        if (k == j || imle_vacant(m, k))
+            continue;
+        double square = imle_expert_misfit(m, k) * imle_tolerance(&m->state.strengths[k]) / m->D;
+        if (square > 0.0 && m->D * (1.0 + elementary_log(square)) - own >= more)
+            continue; /* whatever its errors */
+        more = fmin(more, cost_by_errors(m, k) - own);
     }
-    return fmax(-4.0, fmin(4.0, other - own));
+    return fmax(-most, more);
 }
 
-void imle_ask_whether_needed(struct imle *m)
+static bool is_needed(const struct imle_strengths *s)
 {
-    static double every, most; if (every == 0) every = lab("EVERY", 4), most = lab("NEED", 1);
-    int M = m->state.M;
-    if (imle_experts(m) < 2 || fmod(m->state.samples, every) != 0) return;
-    int j = (int)fmod(m->state.samples / every, M);
-    struct imle_strengths *s = &m->state.strengths[j];
-    if (imle_vacant(m, j) || s->remembers < 3) return;
-    int k = (int)fmod(floor(m->state.samples / every / M), s->remembers);
-    const double *z = slot(m, j, k);
-    if (!imle_look_at_sample(m, z, z + m->d)) return;
-    s->need[k] = need(m, j);
-    double sum = 0;
-    for (int i = 0; i < s->remembers; i++) sum += s->need[i];
-    if (sum > most * s->remembers) return;
-    if (lab("SAY", 0) > 0) fprintf(stderr, "%g: not needed %d: sum %g, S %g error %g\n", m->state.samples, j, sum, s->S, s->error);
+    double sum = 0.0;
+
+    for (int k = 0; k < (int)s->remembers; k++)
+        sum += s->need[k];
+    return s->remembers < enough || sum > little * s->remembers;
+}
+
+/* Without that expert the others may be needed again. */
+static void remove_and_ask_anew(struct imle *m, int j)
+{
     imle_expert_remove(m, j);
-    for (int i = 0; i < M; i++)
-        for (int n = 0; n < IMLE_REMEMBERED; n++) m->state.strengths[i].need[n] = 4.0;
+    for (int i = 0; i < m->state.M; i++)
+        for (int k = 0; k < IMLE_REMEMBERED; k++)
+            m->state.strengths[i].need[k] = most;
+}
+
+void imle_remove_unneeded(struct imle *m)
+{
+    double turn = m->state.samples / asked_every;
+
+    if (imle_experts(m) < 2 || turn > floor(turn))
+        return;
+    int j = (int)fmod(turn, m->state.M);
+    struct imle_strengths *s = &m->state.strengths[j];
+    if (imle_vacant(m, j) || s->remembers < 1.0)
+        return;
+    int k = (int)fmod(floor(turn / m->state.M), s->remembers);
+    const double *z = remembered(m, j, k);
+    if (!imle_look_at_sample(m, z, z + m->d))
+        return;
+    s->need[k] = need_of(m, j);
+    if (!is_needed(s))
+        remove_and_ask_anew(m, j);
 }
