@@ -145,7 +145,7 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
         {m->state.ridge, p, 0, true},
         {m->state.ssr, D, 0, false},
         {m->state.psi, D, 0, true},
-        {m->state.typical, D, 0, true},
+        {m->state.typical, D, 0, false},
         {m->state.residual, D, 0, false},
         {m->state.remembered, IMLE_REMEMBERED * (d + D), 0, false},
     };

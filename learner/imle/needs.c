@@ -14,8 +14,10 @@
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
 
-/* One remembered sample is asked about in so many samples. */
+/* One remembered sample is asked about in so many samples, where experts are large; it costs nearly as
+ * much as to learn one. Else in each. */
 static const double asked_every = 4.0;
+static const int large = 100; /* features */
 
 /* An expert is not needed where its samples would cost less than this more without it, in the mean
  * and as -2 log of a density. One sample counts as this much at most, for it may be an outlier. */
@@ -102,7 +104,7 @@ static void remove_and_ask_anew(struct imle *m, int j)
 
 void imle_remove_unneeded(struct imle *m)
 {
-    double turn = m->state.samples / asked_every;
+    double turn = m->state.samples / (m->p < large ? 1.0 : asked_every);
 
     if (imle_experts(m) < 2 || turn > floor(turn))
         return;
