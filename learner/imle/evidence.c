@@ -34,8 +34,7 @@ bool imle_explains(struct imle *m, int j)
 
     if (misfit > most && misfit > most * (1.0 + doubt_of(m, j)))
         return false;
-    return m->D * elementary_log(1.0 + imle_expert_gamma(m, j)) + misfit / (1.0 + doubt_of(m, j)) <=
-           most;
+    return m->D * elementary_log(1.0 + imle_expert_gamma(m, j)) <= most;
 }
 
 double imle_cost(struct imle *m, int j)
