@@ -26,9 +26,11 @@ static const double most_alike = 0.8;
  * of the outputs' range, by the recipe for psi0 (docs/learner.md). */
 static const double least_range = 25.0;
 
-/* The world has moved where the mean square error has grown by this much over its least. What an
- * expert cannot express is there from the start, and grows no further. */
+/* The world has moved where the mean square error has grown by this much over its least. Errors of
+ * an expert that cannot express what it learns grow, too, while it sees more of that; but they were
+ * more alike than this when they were least. */
 static const double moved = 2.0;
+static const double expressed = 0.5;
 
 double imle_error(const struct imle_strengths *s)
 {
@@ -80,7 +82,11 @@ static void see_whether_the_world_moved(struct imle_strengths *s)
 {
     if (s->known < memory)
         return;
-    if (s->fading <= 0.0 && s->error > moved * s->least) {
+    if (s->error < s->lowest) {
+        s->lowest = s->error;
+        s->alike = s->again / s->error;
+    }
+    if (s->fading <= 0.0 && s->error > moved * s->least && s->alike < expressed) {
         s->fading = IMLE_FADING;
         s->least = s->error;
     }

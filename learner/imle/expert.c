@@ -156,6 +156,8 @@ void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, 
         .prior_psi = m->config.prior_psi,
         .known = 1.0,
         .error = 1.0,
+        .lowest = 1.0,
+        .alike = 1.0,
         .least = 1.0,
     };
     memcpy(at(m->state.nu, j, d), z, d * sizeof(double));

@@ -39,6 +39,8 @@ struct imle_strengths {
     double known;     /* samples where it claimed to know, for */
     double error;     /* the mean square of what it was wrong by there, in units of Psi_bar */
     double again;     /* the mean product of two such errors, one after the other */
+    double lowest;    /* what `error` was at its least ever, and */
+    double alike;     /* `again` over that */
     double least;     /* what `error` was at its least since the world stood still, and */
     double fading;    /* samples in which the past is still to fade */
     double remembers; /* samples remembered, and for each of them */

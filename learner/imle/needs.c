@@ -14,8 +14,8 @@
 #include "common/base/elementary.h"
 #include "learner/imle/evidence.h"
 
-/* One remembered sample is asked about in so many samples, where experts are large; it costs nearly as
- * much as to learn one. Else in each. */
+/* One remembered sample is asked about in so many samples, where experts are large; it costs nearly
+ * as much as to learn one. Else in each. */
 static const double asked_every = 4.0;
 static const int large = 100; /* features */
 

@@ -47,7 +47,7 @@ void branches_teach(struct learner *learner, int n, double branch, int *counts)
         branches_value_at(z, branch, x);
         for (int i = 0; i < BRANCHES_OUTPUTS; i++)
             x[i] += 5e-4 * bed_normal();
-        int result = learner_update(learner, z, x);
+        enum learner_update_result result = learner_update(learner, z, x);
         if (counts)
             counts[result]++;
     }
