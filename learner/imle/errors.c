@@ -1,7 +1,6 @@
 /* What experts are wrong by, where births are by evidence. Each keeps account of how far the
  * samples that it learned lay from what it foretold, where it claimed to know. From that follow how
- * far off a sample may be, the variance that a solution states, and when old samples are to fade.
- */
+ * far off a sample may be, and the variance that a solution states. */
 #include <math.h>
 
 #include "learner/imle/evidence.h"
@@ -25,12 +24,6 @@ static const double most_alike = 0.8;
 /* What an expert that has seen nothing may be wrong by, in units of sqrt(Psi_bar), at least: half
  * of the outputs' range, by the recipe for psi0 (docs/learner.md). */
 static const double least_range = 25.0;
-
-/* The world has moved where the mean square error has grown by this much over its least. Errors of
- * an expert that cannot express what it learns grow, too, while it sees more of that; but they were
- * more alike than this when they were least. */
-static const double moved = 2.0;
-static const double expressed = 0.5;
 
 double imle_error(const struct imle_strengths *s)
 {
@@ -76,23 +69,6 @@ double imle_doubt(struct imle *m, int j)
     return doubt_of(m, imle_expert_gamma(m, j), m->config.noise_share);
 }
 
-/* Old samples are to fade where errors have grown. From then on the errors of today are the
- * measure. */
-static void see_whether_the_world_moved(struct imle_strengths *s)
-{
-    if (s->known < memory)
-        return;
-    if (s->error < s->lowest) {
-        s->lowest = s->error;
-        s->alike = s->again / s->error;
-    }
-    if (s->fading <= 0.0 && s->error > moved * s->least && s->alike < expressed) {
-        s->fading = IMLE_FADING;
-        s->least = s->error;
-    }
-    s->least = fmin(s->least, s->error);
-}
-
 void imle_note_error(struct imle *m, int j)
 {
     struct imle_strengths *s = &m->state.strengths[j];
@@ -115,7 +91,6 @@ void imle_note_error(struct imle *m, int j)
     }
     s->error += (square - s->error) / s->known;
     s->again += (again - s->again) / s->known;
-    see_whether_the_world_moved(s);
 }
 
 void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance)

@@ -15,10 +15,6 @@
 static const double birth_weight = 1e-6;
 static const double birth_scatter = 1e-6;
 
-/* What is left of an expert's past after one of IMLE_FADING samples, where the world has moved: 3 %
- * after all of them. */
-static const double fading = 0.9826;
-
 /* Where a vacant place's centre is: its density underflows at any query. */
 static const double out_of_reach = 1e30;
 
@@ -156,9 +152,6 @@ void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, 
         .prior_psi = m->config.prior_psi,
         .known = 1.0,
         .error = 1.0,
-        .lowest = 1.0,
-        .alike = 1.0,
-        .least = 1.0,
     };
     memcpy(at(m->state.nu, j, d), z, d * sizeof(double));
     memcpy(at(m->state.nu0, j, d), z, d * sizeof(double));
@@ -330,13 +323,8 @@ static void restore_ridge(struct imle *m, int j, double delta)
 
 void imle_expert_update(struct imle *m, int j, double h, const double *z, const double *x)
 {
-    struct imle_strengths *s = &m->state.strengths[j];
-    double delta = decay(s->H, h, m->config.alpha);
+    double delta = decay(m->state.strengths[j].H, h, m->config.alpha);
 
-    if (s->fading > 0.0) {
-        s->fading -= 1.0;
-        delta *= fading;
-    }
     learn_regression(m, j, h, delta, x);
     restore_ridge(m, j, delta);
     learn_gate(m, j, h, delta, z);

@@ -39,10 +39,6 @@ struct imle_strengths {
     double known;     /* samples where it claimed to know, for */
     double error;     /* the mean square of what it was wrong by there, in units of Psi_bar */
     double again;     /* the mean product of two such errors, one after the other */
-    double lowest;    /* what `error` was at its least ever, and */
-    double alike;     /* `again` over that */
-    double least;     /* what `error` was at its least since the world stood still, and */
-    double fading;    /* samples in which the past is still to fade */
     double remembers; /* samples remembered, and for each of them */
     double need[IMLE_REMEMBERED]; /* how much worse the others would explain it (needs.c) */
 };
@@ -52,9 +48,6 @@ enum { IMLE_MOST_ANSWERS = 256 };
 
 /* Most experts to be at a time. */
 enum { IMLE_CANDIDATES = 2 };
-
-/* Samples in which an expert's past fades when the world has moved (expert.c). */
-enum { IMLE_FADING = 200 };
 
 /* Experts to a block of the sums behind the shared priors. */
 enum { IMLE_SUM = 32 };

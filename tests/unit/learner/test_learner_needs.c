@@ -1,4 +1,4 @@
-/* Births by evidence: who is still needed, and what fades where the world moved. */
+/* Births by evidence: who is still needed. */
 #include <math.h>
 
 #include "branches.h"
@@ -87,31 +87,12 @@ START_TEST(what_is_known_alone_stays_however_long_unused)
 }
 END_TEST
 
-START_TEST(old_samples_fade_where_the_world_moved)
-{
-    struct learner_config config = branches_cubic(16);
-    const double way = 0.2; /* in steps: five tolerances */
-
-    bed_seed();
-    struct learner *learner = bed_create(&config);
-    branches_teach(learner, 4000, 0.0, NULL);
-    for (int k = 0; k < 4000; k++)
-        branches_teach(learner, 1, way * k / 4000.0, NULL);
-    ck_assert_int_eq(branches_experts(learner), 1);
-    ck_assert_double_lt(branches_error_of(learner, way), branches_tolerance);
-    branches_teach(learner, 2000, way, NULL);
-    ck_assert_double_lt(branches_error_of(learner, way), 0.1 * branches_tolerance);
-    bed_clean();
-}
-END_TEST
-
 int main(void)
 {
     const TTest *const tests[] = {
         two_curves_by_chance_from_the_start_are_told_apart,
         what_the_others_know_goes,
         what_is_known_alone_stays_however_long_unused,
-        old_samples_fade_where_the_world_moved,
     };
 
     return SUITE_RUN("experts that are needed", tests);
