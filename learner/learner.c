@@ -37,7 +37,7 @@ _Static_assert(offsetof(struct envelope, experts) == LEARNER_SAVED_IDENTITY,
                "what comes before says whose state it is");
 
 static const char magic[8] = "RLEARNER";
-static const uint64_t version = 4;
+static const uint64_t version = 5;
 
 static size_t memory_of(const struct learner_config *config)
 {

@@ -40,6 +40,7 @@ enum learner_features {
 
 /* When samples that no expert explains make a new one. */
 enum learner_births {
+    LEARNER_BIRTHS_AUTO, /* by evidence, but for linear experts, which are local: as published */
     LEARNER_BIRTHS_PUBLISHED, /* at once after `n_outliers`; experts stay for good */
     LEARNER_BIRTHS_EVIDENCE,  /* of a candidate that has learned and foretold several */
 };
@@ -129,7 +130,7 @@ struct learner_config {
     double prior_floor;                /* least share of the last four left by forgetting;
                                           0.01 (prior_sigma also never under d) */
 
-    enum learner_births births; /* LEARNER_BIRTHS_PUBLISHED */
+    enum learner_births births; /* LEARNER_BIRTHS_AUTO */
     int n_outliers;             /* outliers in a row that make no expert yet, >= 0; 1 */
     double p0;                  /* outlier probability, 0 .. 1; 0.1 */
     bool inherit;               /* a newborn starts from its parent's slopes; false */

@@ -143,6 +143,7 @@ enum learner_update_result imle_nurse(struct imle *m, const double *z, const dou
     s->row += 1.0;
     s->score += foretold;
     s->last = m->state.samples;
+    imle_remember(m, from, z, x);
     if (!grown_up(m, s))
         return LEARNER_OUTLIER;
     int to = place_among_experts(m, worth(m, from));

@@ -32,7 +32,9 @@ bool imle_explains(struct imle *m, int j)
     double most = -2.0 * m->log_c_joint;
     double misfit = imle_expert_misfit(m, j);
 
-    return misfit <= most || misfit <= most * (1.0 + doubt_of(m, j));
+    if (misfit > most && misfit > most * (1.0 + doubt_of(m, j)))
+        return false;
+    return m->D * elementary_log(1.0 + imle_expert_gamma(m, j)) <= most;
 }
 
 double imle_cost(struct imle *m, int j)
@@ -48,9 +50,9 @@ static double least_cost(struct imle *m, double misfit)
     return misfit <= m->D ? misfit : m->D * (1.0 + elementary_log(misfit / m->D));
 }
 
-/* m->query.log_h of all experts: log h_j before normalising, or, where it cannot come near the
- * largest, a bound above it that is not near either. Returns the expert with the largest, or -1. */
-static int weigh(struct imle *m)
+/* m->query.log_h of all experts: a bound above log h_j before normalising. Returns the expert with
+ * the largest, or -1. */
+static int bound_shares(struct imle *m)
 {
     double *log_h = m->query.log_h;
     int best = -1;
@@ -59,12 +61,36 @@ static int weigh(struct imle *m)
     for (int j = 0; j < m->state.M; j++) {
         if (imle_vacant(m, j))
             continue;
-        double misfit = imle_expert_misfit(m, j);
-        double most = log_h[j] - 0.5 * least_cost(m, misfit);
-        log_h[j] = best >= 0 && most < log_h[best] - too_far_behind
-                       ? most
-                       : log_h[j] - 0.5 * imle_cost(m, j);
+        log_h[j] -= 0.5 * least_cost(m, imle_expert_misfit(m, j));
         if (best < 0 || log_h[j] > log_h[best])
+            best = j;
+    }
+    return best;
+}
+
+/* log h_j itself in the place of its bound. */
+static void sharpen(struct imle *m, int j)
+{
+    m->query.log_h[j] += 0.5 * (least_cost(m, imle_expert_misfit(m, j)) - imle_cost(m, j));
+}
+
+/* log h_j of all experts; where it cannot come near the largest, the bound, which does not either.
+ * The best bound comes first, so that the others' doubts, which are dear, are seldom asked. Returns
+ * the expert with the largest, or -1. */
+static int weigh(struct imle *m)
+{
+    const double *log_h = m->query.log_h;
+    int first = bound_shares(m);
+    int best = first;
+
+    if (first < 0)
+        return -1;
+    sharpen(m, first);
+    for (int j = 0; j < m->state.M; j++) {
+        if (j == first || imle_vacant(m, j) || log_h[j] < log_h[best] - too_far_behind)
+            continue;
+        sharpen(m, j);
+        if (log_h[j] > log_h[best])
             best = j;
     }
     return best;
@@ -96,6 +122,7 @@ static void learn_shares(struct imle *m, int best, const double *z, const double
             imle_expert_update(m, j, m->query.h[j] / sum, z, x);
         }
     m->state.strengths[best].last = m->state.samples;
+    imle_remember(m, best, z, x);
 }
 
 enum learner_update_result imle_learn_by_evidence(struct imle *m, const double *z, const double *x)
@@ -113,6 +140,7 @@ enum learner_update_result imle_learn_by_evidence(struct imle *m, const double *
         result = imle_nurse(m, z, x);
     imle_candidates_wait(m);
     imle_remove_needless(m);
+    imle_remove_unneeded(m);
     imle_priors_update(m);
     return result;
 }

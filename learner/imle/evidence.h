@@ -6,6 +6,9 @@
 
 /* imle/errors.c: variances are in units of Psi_bar ------------------------------------------- */
 
+/* The mean square of what an expert is wrong by where it knows. */
+double imle_error(const struct imle_strengths *s);
+
 /* What an expert may be wrong by where it knows: its Psi. */
 double imle_tolerance(const struct imle_strengths *s);
 
@@ -19,8 +22,9 @@ void imle_note_output(struct imle *m, const double *x);
 /* Takes note of what expert or candidate j is wrong by, before it learns the sample. */
 void imle_note_error(struct imle *m, int j);
 
-/* The variance of a new sample about the answer of expert j, whose uncertainty there is gamma. */
-double imle_stated_variance(const struct imle *m, int j, double gamma);
+/* The variances of a new sample about the answer of expert j, whose uncertainty there is gamma; in
+ * units of the outputs, squared. */
+void imle_stated_variances(const struct imle *m, int j, double gamma, double *variance);
 
 /* imle/evidence.c -------------------------------------------------------------------------- */
 
@@ -45,5 +49,14 @@ void imle_candidates_wait(struct imle *m);
 /* Takes away one expert that a short burst made and that nothing has needed since, if there is any.
  */
 void imle_remove_needless(struct imle *m);
+
+/* imle/needs.c ----------------------------------------------------------------------------- */
+
+/* Expert or candidate j has learned this sample, and may remember it. */
+void imle_remember(struct imle *m, int j, const double *z, const double *x);
+
+/* Asks again about one remembered sample in a while, and takes the expert away that nothing needs
+ * any more. What m->query knew of the newest sample is gone. */
+void imle_remove_unneeded(struct imle *m);
 
 #endif

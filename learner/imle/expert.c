@@ -134,6 +134,10 @@ static void first_regression(struct imle *m, int j, const double *x, int parent)
         at(m->state.ridge, j, p)[k] = ridge;
     memset(at(m->state.ssr, j, D), 0, D * sizeof(double));
     memset(at(m->state.residual, j, D), 0, D * sizeof(double));
+    for (size_t i = 0; i < D; i++)
+        at(m->state.typical, j, D)[i] = 1.0;
+    size_t kept = IMLE_REMEMBERED * (size_t)(m->d + m->D);
+    memset(at(m->state.remembered, j, kept), 0, kept * sizeof(double));
 }
 
 void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, int parent)
@@ -148,7 +152,6 @@ void imle_expert_birth(struct imle *m, int j, const double *z, const double *x, 
         .prior_psi = m->config.prior_psi,
         .known = 1.0,
         .error = 1.0,
-        .typical = 1.0,
     };
     memcpy(at(m->state.nu, j, d), z, d * sizeof(double));
     memcpy(at(m->state.nu0, j, d), z, d * sizeof(double));

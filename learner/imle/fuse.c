@@ -110,12 +110,13 @@ static void state_variance(const struct imle *m, const struct fusion *fusion,
         const struct imle_answer *answer = &m->query.answers[a];
         if (answer->cluster != fusion->cluster)
             continue;
-        double own = imle_stated_variance(m, answer->expert, answer->gamma);
+        double own[LEARNER_MAX_OUTPUTS];
+        imle_stated_variances(m, answer->expert, answer->gamma, own);
         const double *psi = psi_of(m, answer);
         for (int i = 0; i < m->D; i++) {
             double off = answer->xhat[i] - solution->value[i];
-            solution->variance[i] += answer->share / psi[i] / fusion->sum_precision[i] *
-                                     (m->state.psi_bar[i] * own + off * off);
+            solution->variance[i] +=
+                answer->share / psi[i] / fusion->sum_precision[i] * (own[i] + off * off);
         }
     }
 }

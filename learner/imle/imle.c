@@ -20,7 +20,8 @@ static void set_dimensions(struct imle *m, const struct learner_config *config)
 
 static bool births_by_evidence(const struct learner_config *config)
 {
-    return config->births == LEARNER_BIRTHS_EVIDENCE;
+    return config->births == LEARNER_BIRTHS_EVIDENCE ||
+           (config->births == LEARNER_BIRTHS_AUTO && config->features != LEARNER_LINEAR);
 }
 
 static int check_variances(const struct learner_config *config, char *err, size_t err_size)

@@ -21,6 +21,9 @@
 extern "C" {
 #endif
 
+/* Samples that an expert remembers, where births are by evidence. */
+enum { IMLE_REMEMBERED = 8 };
+
 /* Numbers of one expert that are not vectors. */
 struct imle_strengths {
     double H;           /* responsibility taken, all told */
@@ -28,15 +31,16 @@ struct imle_strengths {
     double prior_sigma; /* w_Sigma, w_nu, w_Psi after forgetting */
     double prior_nu;
     double prior_psi;
-    double turn;    /* coordinate whose ridge is topped up next */
-    double last;    /* number of the newest sample that was mostly its own; under 0: the place is
-                       vacant (births by evidence alone, as what follows) */
-    double row;     /* a candidate's newest samples that came in a row */
-    double score;   /* of a candidate: samples that it foretold, the older ones count less */
-    double known;   /* samples where it claimed to know, for */
-    double error;   /* the mean square of what it was wrong by there, in units of Psi_bar */
-    double again;   /* the mean product of two such errors, one after the other */
-    double typical; /* their mean size, the newest ones': large ones count less */
+    double turn;      /* coordinate whose ridge is topped up next */
+    double last;      /* number of the newest sample that was mostly its own; under 0: the place is
+                         vacant (births by evidence alone, as what follows) */
+    double row;       /* a candidate's newest samples that came in a row */
+    double score;     /* of a candidate: samples that it foretold, the older ones count less */
+    double known;     /* samples where it claimed to know, for */
+    double error;     /* the mean square of what it was wrong by there, in units of Psi_bar */
+    double again;     /* the mean product of two such errors, one after the other */
+    double remembers; /* samples remembered, and for each of them */
+    double need[IMLE_REMEMBERED]; /* how much worse the others would explain it (needs.c) */
 };
 
 /* Most answers that one prediction weighs against each other: it bounds the time. */
@@ -96,6 +100,8 @@ struct imle_state {
     double *ridge;       /* p: what forgetting has left of the ridge in C */
     double *ssr;         /* D: squared residuals */
     double *psi;         /* D: Psi_j */
+    double *typical;     /* D: mean size of the newest errors, the same unit */
+    double *remembered;  /* IMLE_REMEMBERED x (d + D): some of its samples */
     double *residual;    /* D: what it was wrong by last, in units of sqrt(Psi_bar) */
 };
 

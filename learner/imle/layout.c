@@ -56,6 +56,8 @@ static size_t take_state(struct imle *m, struct arena *arena)
         {SLOT(state.ridge), numbers(n * p)},
         {SLOT(state.ssr), numbers(n * D)},
         {SLOT(state.psi), numbers(n * D)},
+        {SLOT(state.typical), numbers(n * D)},
+        {SLOT(state.remembered), numbers(n * IMLE_REMEMBERED * (d + D))},
         {SLOT(state.residual), numbers(n * D)},
     };
 
@@ -132,12 +134,20 @@ bool imle_state_part(const struct imle *m, int expert, int k, struct imle_part *
     size_t D = (size_t)m->D;
     size_t p = (size_t)m->p;
     const struct imle_part parts[] = {
-        {m->state.nu, d, 0, false},         {m->state.nu0, d, 0, false},
-        {m->state.sigma_birth, d, 0, true}, {m->state.spread, whitener_row(m->d), m->d, false},
-        {m->state.phibar, p, 0, false},     {m->state.xbar, D, 0, false},
-        {m->state.W, p * D, 0, false},      {m->state.whitener, whitener_row(m->p), m->p, false},
-        {m->state.ridge, p, 0, true},       {m->state.ssr, D, 0, false},
-        {m->state.psi, D, 0, true},         {m->state.residual, D, 0, false},
+        {m->state.nu, d, 0, false},
+        {m->state.nu0, d, 0, false},
+        {m->state.sigma_birth, d, 0, true},
+        {m->state.spread, whitener_row(m->d), m->d, false},
+        {m->state.phibar, p, 0, false},
+        {m->state.xbar, D, 0, false},
+        {m->state.W, p * D, 0, false},
+        {m->state.whitener, whitener_row(m->p), m->p, false},
+        {m->state.ridge, p, 0, true},
+        {m->state.ssr, D, 0, false},
+        {m->state.psi, D, 0, true},
+        {m->state.typical, D, 0, false},
+        {m->state.residual, D, 0, false},
+        {m->state.remembered, IMLE_REMEMBERED * (d + D), 0, false},
     };
 
     if (k >= (int)(sizeof parts / sizeof parts[0]))

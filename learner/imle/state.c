@@ -132,7 +132,8 @@ static bool strengths_fit(const struct imle *m, const struct imle_strengths *s)
     return s->H > 0.0 && s->H < 1e15 && s->S > 0.0 && s->S < 1e15 && s->prior_sigma >= m->d &&
            s->prior_sigma < 1e15 && s->prior_nu >= 0.0 && s->prior_nu < 1e15 &&
            s->prior_psi > 0.0 && s->turn >= 0.0 && s->turn < m->p && s->last >= -1.0 &&
-           s->last < 1e15 && s->row >= 0.0 && s->row < 1e15 && fabs(s->score) < 1e15;
+           s->last < 1e15 && s->row >= 0.0 && s->row < 1e15 && fabs(s->score) < 1e15 &&
+           s->remembers >= 0.0 && s->remembers <= IMLE_REMEMBERED;
 }
 
 /* The checksum guards against damage; this, against a state that never was one. */

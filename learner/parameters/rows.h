@@ -44,9 +44,10 @@
         X("prior_floor", OPTION_NUMBER, prior_floor, 1e-9, 1, NULL,                                \
           "least share of their initial strength that the priors keep when old samples are "       \
           "forgotten"),                                                                            \
-        X("births", OPTION_CHOICE, births, 0, 0, "published|evidence",                             \
+        X("births", OPTION_CHOICE, births, 0, 0, "auto|published|evidence",                        \
           "when samples that fit nothing make a new expert: published = after n_outliers, "        \
-          "evidence = when a candidate has learned several of them"),                              \
+          "evidence = when a candidate has learned several of them; auto = evidence, but "         \
+          "published for linear experts"),                                                         \
         X("n_outliers", OPTION_INT, n_outliers, 0, 1000, NULL,                                     \
           "number of outliers in a row that make no new expert; the next one does"),               \
         X("p0", OPTION_NUMBER, p0, 1e-9, 1 - 1e-9, NULL,                                           \

@@ -26,7 +26,6 @@ FREQUENCY, DAMPING, DROOP = 2.0, 0.05, 0.03  # of a tool that swings: Hz, share 
 class HardStudy(BodyStudy):
     columns: tuple[str, str] = (POLYNOMIAL, BODY)
     files: tuple[str, str] = ("learner-icub.yaml", "learner-icub-body.yaml")
-    parameters: tuple[str, ...] = ("births=evidence",)  # what is judged, whatever a file says
 
 
 @dataclass

@@ -251,7 +251,7 @@ def studies(quick: bool) -> list[Study]:
                Bar("solutions", 45000, solutions(), 0.05, "", 6)]),
         Study("wide", "joint ranges twice as wide", (7, 3), _wide(200000),
               [Bar("hand after 200,000", 200000, rmse("S1"), 15)],
-              ("births=published",)),  # which is the better one there (docs/learner.md)
+              ("births=published",)),  # which is some percent better there (docs/learner.md)
         Study("half_psi", "Psi_0 half as wide (standard deviation)", (7, 3), _four_phases(20000),
               _psi_bars(20000), ("psi0=0.25e-4",)),
         Study("double_psi", "Psi_0 twice as wide", (7, 3), _four_phases(20000), _psi_bars(20000),

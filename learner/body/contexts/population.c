@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "learner/body/vec3.h"
+#include "learner/body/chain/vec3.h"
 
 /* More than a mistake: so many samples, which it has foretold so much better than nothing would. By
  * chance a tip that droops explains any two or three samples, though not well. */
