@@ -1,6 +1,7 @@
 #include "learner/service/bus.h"
 
 #include "common/base/mailbox.h"
+#include "common/bus/open.h"
 #include "common/bus/receiver.h"
 
 #include <stdatomic.h>
@@ -8,6 +9,13 @@
 
 #define QUEUE 256   /* requests; a power of two */
 #define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
+
+static const int64_t lay_most_us = 60000000; /* a clock that was set says more */
+
+struct arrival {
+    int64_t at; /* us, monotonic */
+    reach_learner_request_t request;
+};
 
 struct service_bus {
     lcm_t *lcm;
@@ -21,19 +29,28 @@ struct service_bus {
 size_t service_bus_memory(void)
 {
     return arena_footprint(sizeof(struct service_bus)) +
-           mailbox_memory(sizeof(reach_learner_request_t), QUEUE);
+           mailbox_memory(sizeof(struct arrival), QUEUE);
+}
+
+/* The kernel says by the wall clock when a message came; this thread may have been held up since.
+ */
+static int64_t arrived_at(const lcm_recv_buf_t *message)
+{
+    int64_t lay = bus_utime() - message->recv_utime;
+
+    return bus_monotonic_us() - (lay > 0 && lay < lay_most_us ? lay : 0);
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct service_bus *bus = user;
-    reach_learner_request_t request;
+    struct arrival arrival = {.at = arrived_at(message)};
     const int size = (int)message->data_size;
 
     (void)channel;
-    if (reach_learner_request_t_decode(message->data, 0, size, &request) != size)
+    if (reach_learner_request_t_decode(message->data, 0, size, &arrival.request) != size)
         atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
-    else if (mailbox_put(bus->requests, &request))
+    else if (mailbox_put(bus->requests, &arrival))
         bus->arrived(bus->user);
 }
 
@@ -44,7 +61,7 @@ struct service_bus *service_bus_create(lcm_t *lcm, void (*arrived)(void *user), 
     lcm_subscription_t *subscription;
 
     if (bus)
-        bus->requests = mailbox_create(arena, sizeof(reach_learner_request_t), QUEUE);
+        bus->requests = mailbox_create(arena, sizeof(struct arrival), QUEUE);
     if (!bus || !bus->requests) {
         snprintf(error, error_size, "out of memory");
         return NULL;
@@ -70,9 +87,15 @@ void service_bus_stop(struct service_bus *bus)
     bus_receiver_stop(&bus->receiver);
 }
 
-bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request)
+bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request, int64_t *arrived)
 {
-    return mailbox_take(bus->requests, request);
+    struct arrival arrival;
+
+    if (!mailbox_take(bus->requests, &arrival))
+        return false;
+    *request = arrival.request;
+    *arrived = arrival.at;
+    return true;
 }
 
 int64_t service_bus_dropped(const struct service_bus *bus)
