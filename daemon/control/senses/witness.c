@@ -1,4 +1,4 @@
-#include "daemon/control/senses/witness.h"
+#include "daemon/control/senses/witness_private.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,12 +17,8 @@ enum {
     JUMPS_IN = 16,    /* frames, */
     JUMPS_MOST = 6,   /* of which so many are strange by jumping: a single step makes two */
     RESTLESS_FOR = 3, /* times rest_us; a step is over after one */
-    STRIDE = 5,       /* frames over which motion is measured, */
-    WINDOW = 30,      /* how often, */
-    LAG_MOST = 40,    /* and how far back it is looked for */
-    LAG_LEAST = 4,
-    FOUND_FOR = 8, /* frames in a row */
-    FITS_FOR = 50, /* frames in a row with motion, after which all is well again */
+    FOUND_FOR = 8,    /* frames in a row */
+    FITS_FOR = 50,    /* frames in a row with motion, after which all is well again */
 };
 static const double misfit_share = 0.004; /* of the slow mean, a frame */
 static const double misfit_most = 0.3;    /* that counts in it */
@@ -30,29 +26,12 @@ static const double misfit_fits = 0.1;    /* up to this the model knows what mov
 static const double misfit_sure = 0.05;   /* up to this it knows it well */
 static const double misfit_wrong = 0.04;  /* from this on something is other than it was: late, */
 static const double misfit_row = 0.2;     /* and so from this on, of one row */
-static const double late_fits = 0.02;     /* misfit at another time that is none */
-static const double late_gain = 0.3;      /* when another time fits so much better */
-static const double still_share = 0.05;   /* of the squared motion expected */
-static const double eye_fits = 0.1;       /* of the squared motion of disparity */
-static const double still_noise = 0.03;   /* and of what is noise */
-static const double least_motion = 1;     /* noises a stride, mean: less shows nothing */
 
 void witness_init(struct witness *witness, const struct config *config)
 {
     memset(witness, 0, sizeof *witness);
     witness->config = config;
     witness->misfit = misfit_most;
-}
-
-static const struct witness_frame *frame_at(const struct witness *witness, int age)
-{
-    return &witness->frame[(witness->newest - age + WITNESS_FRAMES) % WITNESS_FRAMES];
-}
-
-/* So many times the noise of an output, in scaled units. */
-static double noise_of(const struct config *config, int row, double times)
-{
-    return config->eyes_doubt * times * config->space.noise[row] / config->space.scale[row];
 }
 
 /* Adds the motion since the frame before as the model has it: by that of its solutions which fits
@@ -87,7 +66,7 @@ static void push(struct witness *witness, const struct sight *sight,
                  const struct learner_prediction *prediction)
 {
     const struct config *config = witness->config;
-    const struct witness_frame before = *frame_at(witness, 0);
+    const struct witness_frame before = *witness_frame_at(witness, 0);
     struct witness_frame *frame;
     double x[SPACE_DIMENSIONS];
 
@@ -114,8 +93,8 @@ static void push(struct witness *witness, const struct sight *sight,
 /* Whether the frame before the newest is off the line between its neighbours. */
 static bool is_strange(const struct witness *witness)
 {
-    const struct witness_frame *a = frame_at(witness, 2), *b = frame_at(witness, 1),
-                               *c = frame_at(witness, 0);
+    const struct witness_frame *a = witness_frame_at(witness, 2), *b = witness_frame_at(witness, 1),
+                               *c = witness_frame_at(witness, 0);
     double share = (double)(b->utime - a->utime) / (double)(c->utime - a->utime);
     double bent = 0;
 
@@ -123,7 +102,7 @@ static bool is_strange(const struct witness *witness)
         bent += fabs(b->q[i] - a->q[i] - share * (c->q[i] - a->q[i]));
     for (int row = 0; row < SPACE_DIMENSIONS; row++) {
         double off = b->x[row] - a->x[row] - share * (c->x[row] - a->x[row]);
-        if (fabs(off) > noise_of(witness->config, row, jump_noise) + lever * bent)
+        if (fabs(off) > witness_noise(witness->config, row, jump_noise) + lever * bent)
             return true;
     }
     return false;
@@ -138,23 +117,23 @@ static bool jumps(struct witness *witness)
     witness->frame[(witness->newest - 1 + WITNESS_FRAMES) % WITNESS_FRAMES].strange =
         is_strange(witness);
     for (int age = 1; age <= JUMPS_IN && age < witness->kept; age++)
-        n += frame_at(witness, age)->strange;
+        n += witness_frame_at(witness, age)->strange;
     return n >= JUMPS_MOST;
 }
 
 /* Whether it moved in the last `rest_us` by more than the arm can have moved it. */
 static bool moved_at_rest(const struct witness *witness)
 {
-    const struct witness_frame *now = frame_at(witness, 0), *then = now;
+    const struct witness_frame *now = witness_frame_at(witness, 0), *then = now;
 
     for (int age = 1; age < witness->kept; age++) {
-        then = frame_at(witness, age);
+        then = witness_frame_at(witness, age);
         if (now->utime - then->utime >= rest_us)
             break;
     }
     for (int row = 0; row < SPACE_DIMENSIONS; row++)
         if (fabs(now->x[row] - then->x[row]) >
-            noise_of(witness->config, row, rest_noise) + lever * (now->path - then->path))
+            witness_noise(witness->config, row, rest_noise) + lever * (now->path - then->path))
             return true;
     return false;
 }
@@ -165,133 +144,9 @@ static bool is_restless(struct witness *witness)
 
     if (witness->kept < 2)
         return false;
-    frame_us = frame_at(witness, 0)->utime - frame_at(witness, 1)->utime;
+    frame_us = witness_frame_at(witness, 0)->utime - witness_frame_at(witness, 1)->utime;
     witness->restless = moved_at_rest(witness) ? witness->restless + 1 : 0;
     return witness->restless * frame_us >= RESTLESS_FOR * rest_us;
-}
-
-/* Whether what was seen made a step in the stride that ended so many frames ago: that is none of
- * the arm's motion. */
-static bool has_step(const struct witness *witness, int age)
-{
-    for (int i = age; i <= age + STRIDE; i++)
-        if (frame_at(witness, i)->strange)
-            return true;
-    return false;
-}
-
-/* Squared motion over the window: seen, expected `lag` frames before, and their difference. */
-struct motion {
-    double seen, expected, missed;
-};
-
-static struct motion motion_of(const struct witness *witness, int row, int lag)
-{
-    struct motion sum = {0};
-
-    for (int age = 0; age < WINDOW; age++) {
-        if (has_step(witness, age))
-            continue;
-        double seen = frame_at(witness, age)->x[row] - frame_at(witness, age + STRIDE)->x[row];
-        double expected = frame_at(witness, age + lag)->expected[row] -
-                          frame_at(witness, age + lag + STRIDE)->expected[row];
-        sum.seen += seen * seen;
-        sum.expected += expected * expected;
-        sum.missed += (seen - expected) * (seen - expected);
-    }
-    return sum;
-}
-
-static double misfit_of(const struct motion *motion)
-{
-    return motion->missed / (motion->seen + motion->expected);
-}
-
-/* Squared motion that would be noise alone. */
-static double least_of(const struct config *config, int row)
-{
-    double least = noise_of(config, row, least_motion);
-
-    return WINDOW * least * least;
-}
-
-/* Adds up all rows. `worst` becomes the misfit of that row that moved and fits worst. */
-static struct motion motion_at(const struct witness *witness, int lag, double *worst)
-{
-    struct motion sum = {0};
-
-    *worst = 0;
-    for (int row = 0; row < SPACE_DIMENSIONS; row++) {
-        const struct motion motion = motion_of(witness, row, lag);
-        if (fmax(motion.seen, motion.expected) >= least_of(witness->config, row))
-            *worst = fmax(*worst, misfit_of(&motion));
-        sum.seen += motion.seen;
-        sum.expected += motion.expected;
-        sum.missed += motion.missed;
-    }
-    return sum;
-}
-
-static bool is_still(const struct witness *witness, const struct motion *motion)
-{
-    double least = 0;
-
-    for (int row = 0; row < SPACE_DIMENSIONS; row++)
-        least += least_of(witness->config, row);
-    return motion->seen < still_share * motion->expected && motion->seen < still_noise * least;
-}
-
-static bool fits_another_time(const struct witness *witness, double misfit)
-{
-    double worst;
-
-    for (int lag = LAG_LEAST; lag <= LAG_MOST && lag + WINDOW + STRIDE < witness->modelled; lag++) {
-        const struct motion then = motion_at(witness, lag, &worst);
-        if (misfit_of(&then) < fmin(late_gain * misfit, late_fits))
-            return true;
-    }
-    return false;
-}
-
-/* Where the left eye shows what was `lag` frames ago, disparity moves by as much as the right image
- * has moved on since; where it is frozen, by as much as the right image moves. */
-static bool left_lags(const struct witness *witness, int lag)
-{
-    double moved = 0, missed = 0;
-
-    for (int age = 0; age < WINDOW; age++) {
-        const struct witness_frame *now = frame_at(witness, age),
-                                   *then = frame_at(witness, age + STRIDE);
-        double right = now->image[0] - then->image[0];
-        double disparity = now->image[2] - then->image[2];
-        if (lag > 0)
-            right -= frame_at(witness, age + lag)->image[0] -
-                     frame_at(witness, age + lag + STRIDE)->image[0];
-        moved += disparity * disparity;
-        missed += (disparity + right) * (disparity + right);
-    }
-    return missed < eye_fits * moved;
-}
-
-/* Whether disparity moves as only one eye's being late or frozen can make it. */
-static bool is_one_eye_late(const struct witness *witness)
-{
-    const struct config *config = witness->config;
-    double least = noise_of(config, 2, least_motion) * config->space.scale[2], moved = 0;
-
-    if (config->space.kind != SPACE_VISUAL || witness->kept <= WINDOW + STRIDE)
-        return false;
-    for (int age = 0; age < WINDOW; age++) {
-        double step = frame_at(witness, age)->image[2] - frame_at(witness, age + STRIDE)->image[2];
-        moved += step * step;
-    }
-    if (moved < WINDOW * least * least)
-        return false;
-    for (int lag = 0; lag <= LAG_MOST && lag + WINDOW + STRIDE < witness->kept;
-         lag += lag ? 1 : LAG_LEAST)
-        if (left_lags(witness, lag))
-            return true;
-    return false;
 }
 
 /* What a moment's misfit says of whether the model can be held against what is seen. */
@@ -314,16 +169,16 @@ static void judge_fit(struct witness *witness, double misfit, double worst, int6
 static void compare(struct witness *witness, int64_t time)
 {
     bool knows = witness->misfit < misfit_fits, late = false, still = false;
-    struct motion now;
+    struct witness_motion now;
     double misfit, worst;
 
-    if (witness->modelled <= WINDOW + STRIDE)
+    if (witness->modelled <= WITNESS_WINDOW + WITNESS_STRIDE)
         return;
-    now = motion_at(witness, 0, &worst);
+    now = witness_motion(witness, 0, &worst);
     if (worst > 0) {
-        misfit = misfit_of(&now);
-        still = knows && is_still(witness, &now);
-        late = knows && misfit > misfit_wrong && fits_another_time(witness, misfit);
+        misfit = witness_misfit(&now);
+        still = knows && witness_is_still(witness, &now);
+        late = knows && misfit > misfit_wrong && witness_fits_another_time(witness, misfit);
         judge_fit(witness, misfit, worst, time);
     }
     witness->late = late ? witness->late + 1 : 0;
@@ -347,7 +202,7 @@ void witness_look(struct witness *witness, const struct sight *sight,
     compare(witness, time);
     find(witness, WITNESS_JUMPS, jumps(witness), time);
     find(witness, WITNESS_RESTLESS, is_restless(witness), time);
-    witness->one_eye = is_one_eye_late(witness) ? witness->one_eye + 1 : 0;
+    witness->one_eye = witness_one_eye_is_late(witness) ? witness->one_eye + 1 : 0;
     find(witness, WITNESS_ONE_EYE, witness->one_eye >= FOUND_FOR, time);
     find(witness, WITNESS_LATE, witness->late >= FOUND_FOR, time);
     find(witness, WITNESS_STILL, witness->still >= FOUND_FOR, time);
