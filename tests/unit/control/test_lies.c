@@ -65,6 +65,7 @@ struct outcome {
     double from, until; /* first and last sample that was learned, s */
     int learned;        /* samples */
     double told;        /* when it was told first, s; INFINITY = never */
+    int troubles;       /* bits of status_t that told of it */
 };
 
 static void step(void)
@@ -118,6 +119,7 @@ static struct outcome watch(double seconds)
                 outcome.from = time;
             outcome.until = time;
         }
+        outcome.troubles |= world.outputs.status.troubles & TOLD;
         if (is_told())
             outcome.told = fmin(outcome.told, time);
     }
@@ -129,12 +131,14 @@ struct row {
     int runs, told, learned_long; /* runs, those that were told, and learned for too long */
     double slowest, longest;      /* to be told, and to be learned, s */
     int learned;                  /* samples, of all runs */
+    int troubles;                 /* bits that were told in every run */
 };
 
 static void add(struct row *row, const struct outcome *outcome)
 {
     double span = outcome->until - outcome->from;
 
+    row->troubles = row->runs > 0 ? row->troubles & outcome->troubles : outcome->troubles;
     row->runs++;
     if (outcome->told < INFINITY) {
         row->told++;
@@ -186,8 +190,17 @@ static void print(const struct victim *victim, enum lie lie, const struct row *r
            row->runs);
 }
 
+/* What must be among what is told. */
+static const int names[LIES] = {
+    [LIE_JUMPS] = REACH_STATUS_T_JUMPS,      [LIE_OUTLIERS] = REACH_STATUS_T_JUMPS,
+    [LIE_ROWS] = REACH_STATUS_T_JUMPS,       [LIE_EYE_FROZEN] = REACH_STATUS_T_ONE_EYE,
+    [LIE_EYE_LATE] = REACH_STATUS_T_ONE_EYE,
+};
+
 static void judge(const struct row *row, enum lie lie)
 {
+    ck_assert_msg(is_honest(lie) || (row->troubles & names[lie]) == names[lie], "%s: %d",
+                  lie_names[lie], row->troubles);
     if (is_honest(lie))
         ck_assert_msg(row->told == 0 && row->learned_long == row->runs, "%s", lie_names[lie]);
     else
