@@ -116,7 +116,7 @@ string(STRIP "${hardening}" hardening)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS etc/systemd/hardening.conf)
 set(reachd_units
     reach.target reach-failed.target reach-bus.service reachd.service reach-finder.service reach-vision.service
-    reach-learner.service)
+    reach-learner.service reach-recorder.service)
 set(reach-sim_units reach-simrobot.service)
 set(reach-tools_units reach-lcm-setup.service)
 foreach(component reachd reach-sim reach-tools)

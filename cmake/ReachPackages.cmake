@@ -55,7 +55,8 @@ endmacro()
 
 list(APPEND reach-sim_etc ${robots})
 set(state /var/lib/reach /var/lib/private/reach # what purging removes
-    /var/lib/reach-learner /var/lib/private/reach-learner)
+    /var/lib/reach-learner /var/lib/private/reach-learner
+    /var/lib/reach-recorder /var/lib/private/reach-recorder)
 list(JOIN state " " state)
 
 reach_package(reachd SECTION science
@@ -66,7 +67,7 @@ them. With it comes the process that finds a marker in the pictures of two
 eyes. Robots and programs speak to it over LCM."
   DEPENDS "iproute2, procps"
   RECOMMENDS "reach-tools"
-  SUGGESTS "reach-sim")
+  SUGGESTS "reach-sim, liblcm-bin")
 set(state "")
 reach_package(reach-sim SECTION science
   SUMMARY "simulated robot with two eyes for reachd"

@@ -2,10 +2,37 @@
 
 #include <stdio.h>
 
+/* What is wrong with what is seen, and where to look; NULL when it is something else. */
+static const char *lie_text(int trouble)
+{
+    switch (trouble) {
+    case REACH_STATUS_T_JUMPS:
+        return "what is seen jumps farther than the arm can move: does vision take something else "
+               "for the marker, or do two programs send it?";
+    case REACH_STATUS_T_RESTLESS:
+        return "what is seen moves while the arm rests: is an eye frozen or late, are the head's "
+               "joints read wrong, or does somebody move the tool?";
+    case REACH_STATUS_T_LATE:
+        return "what is seen is older than its stamp: a camera or tracker that is late";
+    case REACH_STATUS_T_ONE_EYE:
+        return "one eye is late or frozen beside the other: are both cameras triggered together?";
+    case REACH_STATUS_T_UNMOVED:
+        return "what is seen hardly moves while the arm does: a tracker that has lost it";
+    default:
+        return NULL;
+    }
+}
+
 bool trouble_text(const reach_status_t *status, int kind, char *text, size_t size)
 {
     const double degree = 3.14159265358979323846 / 180;
+    const char *lie = lie_text(status->troubles & 1 << kind);
 
+    if (lie) {
+        snprintf(text, size, "%s; meanwhile nothing is learned (%lld samples so far)", lie,
+                 (long long)status->frozen_samples);
+        return true;
+    }
     switch (status->troubles & 1 << kind) {
     case REACH_STATUS_T_MANY_FULL:
         snprintf(text, size,

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { TROUBLES = 6 /* kinds of trouble: bits of status_t.troubles */ };
+enum { TROUBLES = 11 /* kinds of trouble: bits of status_t.troubles */ };
 
 /* One line on the trouble with bit 1 << `kind`, with what to do. Returns false when the status does
  * not have it. */

@@ -16,6 +16,7 @@ struct config {
 
     double eyes_pixels_per_radian; /* image shift for a turn of the head */
     double eyes_stale;             /* age at which a marker no longer counts as seen, s */
+    double eyes_doubt;             /* motion of the marker that is no lie; 0 = none is */
 
     double motion_arm_velocity, motion_arm_acceleration;   /* of wanted motion */
     double motion_head_velocity, motion_head_acceleration; /* of wanted motion */

@@ -7,6 +7,7 @@
 
 /* What may change; a name that ends in '.' stands for all that begin so. */
 static const char *const live[] = {
+    "eyes.doubt",
     "eyes.stale",
     "motion.",
     "head.gain",

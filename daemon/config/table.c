@@ -42,6 +42,9 @@ static const struct option_row table[] = {
            "shift of the image when the head turns by 1 rad (eq. 11 and eq. 12)"),
     NUMBER("eyes.stale", eyes_stale, "s", "0.2", 0.01, 10,
            "age at which the last seen marker or measured end-effector counts as lost"),
+    NUMBER(
+        "eyes.doubt", eyes_doubt, NULL, "1", 0, 1000,
+        "times the learner's noise that what is seen may jump, or move without the arm; 0 = any"),
 
     NUMBER("motion.arm_velocity", motion_arm_velocity, "deg/s", "40", 0.1, 360,
            "greatest velocity of an arm joint in motion; at most safety.arm_velocity"),

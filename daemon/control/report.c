@@ -31,12 +31,14 @@ static const struct learner_prediction *predict_at(struct tick *tick, const doub
     return &tick->pair_prediction;
 }
 
-/* Nothing of joints that may not be where they seem to be, nor of eyes that repeat themselves. */
+/* Nothing of joints that may not be where they seem to be, nor of eyes that repeat themselves or
+ * show what cannot be. */
 static bool is_learned(struct tick *tick, const struct pair *pair)
 {
     if (!tick->behaviour.learn || tick->following.doubts)
         return false;
-    if (health_look(&tick->health, pair->q, pair->x))
+    if (health_look(&tick->health, pair->q, pair->x) &&
+        witness_believes(&tick->witness, tick->time))
         return true;
     tick->frozen++;
     return false;
@@ -160,7 +162,8 @@ static void report_health(const struct tick *tick, reach_status_t *status)
     const struct health *health = &tick->health;
 
     status->frozen_samples = tick->frozen;
-    status->troubles = (int32_t)(health_judge(health, &statistics) & ~(1u << HEALTH_CONSTANT));
+    status->troubles = (int32_t)((health_judge(health, &statistics) & ~(1u << HEALTH_CONSTANT)) |
+                                 witness_tells(&tick->witness, tick->time) << HEALTH_TROUBLES);
     if (!(status->troubles & REACH_STATUS_T_FAR))
         return;
     int joint = health_farthest(health);
@@ -200,8 +203,13 @@ _Static_assert(REACH_STATUS_T_MANY_FULL == 1 << HEALTH_FULL &&
                    REACH_STATUS_T_MANY_OUTLIERS == 1 << HEALTH_OUTLIERS &&
                    REACH_STATUS_T_FAR == 1 << HEALTH_FAR &&
                    REACH_STATUS_T_STILL == 1 << HEALTH_FROZEN &&
-                   REACH_STATUS_T_EXPERTS == 1 << HEALTH_EXPERTS,
-               "status_t.troubles has a bit for each enum health_trouble");
+                   REACH_STATUS_T_EXPERTS == 1 << HEALTH_EXPERTS &&
+                   REACH_STATUS_T_JUMPS == 1 << (HEALTH_TROUBLES + WITNESS_JUMPS) &&
+                   REACH_STATUS_T_RESTLESS == 1 << (HEALTH_TROUBLES + WITNESS_RESTLESS) &&
+                   REACH_STATUS_T_LATE == 1 << (HEALTH_TROUBLES + WITNESS_LATE) &&
+                   REACH_STATUS_T_ONE_EYE == 1 << (HEALTH_TROUBLES + WITNESS_ONE_EYE) &&
+                   REACH_STATUS_T_UNMOVED == 1 << (HEALTH_TROUBLES + WITNESS_STILL),
+               "status_t.troubles has a bit for each enum health_trouble and witness_doubt");
 
 static void report_trace(const struct tick *tick, int64_t now, const struct tick_outputs *outputs,
                          reach_trace_t *trace)

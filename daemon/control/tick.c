@@ -52,6 +52,7 @@ struct tick *tick_create(const struct tick_settings *settings, struct arena *are
     following_init(&tick->following, config);
     history_init(&tick->history, config_joints(config));
     sight_init(&tick->sight, config);
+    witness_init(&tick->witness, config);
     estimate_init(&tick->estimate, config_arm_joints(config), SPACE_DIMENSIONS,
                   config->space.scale);
     context_init(&tick->context);
@@ -106,6 +107,8 @@ static void sense(struct tick *tick)
         health_count_solutions(&tick->health, tick->estimate.prediction.n_solutions);
         context_follow(&tick->context, &tick->estimate);
     }
+    if (tick->sight.new_frame)
+        witness_look(&tick->witness, &tick->sight, &tick->estimate.prediction, tick->time);
     sight_carry(&tick->sight, tick->q, estimate_jacobian(&tick->estimate));
 }
 
@@ -209,6 +212,7 @@ static void take_config(struct tick *tick, const struct config *config)
 {
     tick->config = config;
     tick->sight.config = config;
+    tick->witness.config = config;
     tick->gaze.config = config;
     tick->safety.config = config;
     tick->plausible.config = config;

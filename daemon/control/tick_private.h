@@ -15,6 +15,7 @@
 #include "daemon/control/senses/plausible.h"
 #include "daemon/control/senses/refusals.h"
 #include "daemon/control/senses/sight.h"
+#include "daemon/control/senses/witness.h"
 #include "daemon/control/supervisor.h"
 #include "daemon/control/tick.h"
 #include "learner/health/health.h"
@@ -30,6 +31,7 @@ struct tick {
     struct following following;
     struct history history;
     struct sight sight;
+    struct witness witness;
     struct estimate estimate;
     struct context context;
     struct gaze gaze;
@@ -55,7 +57,7 @@ struct tick {
     int64_t state_utime;  /* its time, us */
     double state_age;     /* since it came, s */
     int64_t sample_seq;
-    int64_t frozen; /* samples that were not learned, since what was seen stood still */
+    int64_t frozen; /* samples that were not learned, since what was seen cannot be true */
     struct refusals refusals;
     int64_t unanswered; /* state of lockstep that was refused in this tick, 0 = none */
 

@@ -1,6 +1,7 @@
 #include "learner/service/bus.h"
 
 #include "common/base/mailbox.h"
+#include "common/bus/open.h"
 #include "common/bus/receiver.h"
 #include "learner/bus/body_answer.h"
 #include "learner/bus/finder_channels.h"
@@ -11,6 +12,13 @@
 #define QUEUE 256 /* requests; a power of two */
 #define BODIES 4
 #define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
+
+static const int64_t lay_most_us = 60000000; /* a clock that was set says more */
+
+struct arrival {
+    int64_t at; /* us, monotonic */
+    reach_learner_request_t request;
+};
 
 struct service_bus {
     lcm_t *lcm;
@@ -24,20 +32,29 @@ struct service_bus {
 size_t service_bus_memory(void)
 {
     return arena_footprint(sizeof(struct service_bus)) +
-           mailbox_memory(sizeof(reach_learner_request_t), QUEUE) +
+           mailbox_memory(sizeof(struct arrival), QUEUE) +
            mailbox_memory(sizeof(struct received_body), BODIES);
+}
+
+/* The kernel says by the wall clock when a message came; this thread may have been held up since.
+ */
+static int64_t arrived_at(const lcm_recv_buf_t *message)
+{
+    int64_t lay = bus_utime() - message->recv_utime;
+
+    return bus_monotonic_us() - (lay > 0 && lay < lay_most_us ? lay : 0);
 }
 
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct service_bus *bus = user;
-    reach_learner_request_t request;
+    struct arrival arrival = {.at = arrived_at(message)};
     const int size = (int)message->data_size;
 
     (void)channel;
-    if (reach_learner_request_t_decode(message->data, 0, size, &request) != size)
+    if (reach_learner_request_t_decode(message->data, 0, size, &arrival.request) != size)
         atomic_fetch_add_explicit(&bus->malformed, 1, memory_order_relaxed);
-    else if (mailbox_put(bus->requests, &request))
+    else if (mailbox_put(bus->requests, &arrival))
         bus->arrived(bus->user);
 }
 
@@ -67,7 +84,7 @@ struct service_bus *service_bus_create(lcm_t *lcm, void (*arrived)(void *user), 
     struct service_bus *bus = arena_alloc(arena, sizeof *bus);
 
     if (bus) {
-        bus->requests = mailbox_create(arena, sizeof(reach_learner_request_t), QUEUE);
+        bus->requests = mailbox_create(arena, sizeof(struct arrival), QUEUE);
         bus->bodies = mailbox_create(arena, sizeof(struct received_body), BODIES);
     }
     if (!bus || !bus->requests || !bus->bodies) {
@@ -94,9 +111,15 @@ void service_bus_stop(struct service_bus *bus)
     bus_receiver_stop(&bus->receiver);
 }
 
-bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request)
+bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request, int64_t *arrived)
 {
-    return mailbox_take(bus->requests, request);
+    struct arrival arrival;
+
+    if (!mailbox_take(bus->requests, &arrival))
+        return false;
+    *request = arrival.request;
+    *arrived = arrival.at;
+    return true;
 }
 
 struct mailbox *service_bus_bodies(struct service_bus *bus)

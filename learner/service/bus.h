@@ -24,8 +24,9 @@ int service_bus_start(struct service_bus *bus, char *error, size_t error_size);
 /* Ends and joins the thread; what is queued stays. */
 void service_bus_stop(struct service_bus *bus);
 
-/* The oldest request of the queue. Returns false when it is empty. */
-bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request);
+/* The oldest request of the queue, and when it arrived (us, bus_monotonic_us()). Returns false when
+ * the queue is empty. */
+bool service_bus_take(struct service_bus *bus, reach_learner_request_t *request, int64_t *arrived);
 
 /* Answers of reach-finder's, struct received_body, for the thread that serves the store. */
 struct mailbox *service_bus_bodies(struct service_bus *bus);

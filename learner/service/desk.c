@@ -277,10 +277,21 @@ static enum desk_answer tell(struct desk *desk, int64_t client, const struct dee
     return DESK_REPLY;
 }
 
-enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request, int64_t now,
-                           struct desk_output *output)
+static bool is_late(const reach_learner_request_t *request, int64_t waited)
 {
-    const bool late = request->deadline != 0 && now > request->deadline;
+    int64_t patience;
+
+    if (request->deadline == 0)
+        return false;
+    if (__builtin_sub_overflow(request->deadline, request->utime, &patience))
+        return request->deadline < request->utime;
+    return waited > patience;
+}
+
+enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request,
+                           int64_t waited, int64_t now, struct desk_output *output)
+{
+    const bool late = is_late(request, waited);
     const bool acts = request->kind == REQUEST(UPDATE) || request->kind == REQUEST(SAVE);
     struct deed deed = {.seq = request->seq, .kind = request->kind};
 

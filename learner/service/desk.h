@@ -43,10 +43,11 @@ struct desk_output {
     reach_learner_prediction_t prediction;
 };
 
-/* Does what a request asks, at `now`, us since the epoch. DESK_SILENT: the answer comes later, out
- * of desk_due. */
-enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request, int64_t now,
-                           struct desk_output *output);
+/* Does what a request asks that has `waited` here for so long, us, by a clock that nobody sets; its
+ * sender gave it the time from its utime to its deadline. `now` is that of stamps, us since the
+ * epoch. DESK_SILENT: the answer comes later, out of desk_due. */
+enum desk_answer desk_take(struct desk *desk, const reach_learner_request_t *request,
+                           int64_t waited, int64_t now, struct desk_output *output);
 
 /* The next answer that waited and need not any longer. Returns false when there is none. To be
  * called often: a body that was found becomes the learner's in here. */

@@ -81,13 +81,15 @@ static void answer_due(struct server *server)
 static bool answer_batch(struct server *server)
 {
     reach_learner_request_t request;
+    int64_t arrived;
 
     desk_note_losses(server->desk, service_bus_dropped(server->bus),
                      service_bus_malformed(server->bus));
     for (int i = 0; i < BATCH; i++) {
-        if (!service_bus_take(server->bus, &request))
+        if (!service_bus_take(server->bus, &request, &arrived))
             return false;
-        enum desk_answer answer = desk_take(server->desk, &request, bus_utime(), &server->output);
+        enum desk_answer answer = desk_take(server->desk, &request, bus_monotonic_us() - arrived,
+                                            bus_utime(), &server->output);
         service_bus_send(server->bus, answer, &server->output);
         if (answer == DESK_SILENT)
             disk_thread_wake(&server->disk);

@@ -53,14 +53,14 @@ static bool was_learned(const reach_learner_request_t *request, enum desk_answer
 static void hear(struct service_bus *bus, struct desk *desk, const uint8_t *data, size_t size)
 {
     reach_learner_request_t request;
-    int64_t now = 1000000, accepted = 0;
+    int64_t now = 1000000, accepted = 0, arrived;
 
     while (size > 0) {
         size_t used = fake_lcm_deliver_next(&channel, 1, data, size);
         data += used;
         size -= used;
-        while (service_bus_take(bus, &request)) {
-            enum desk_answer answer = desk_take(desk, &request, now += 1000, &output);
+        while (service_bus_take(bus, &request, &arrived)) {
+            enum desk_answer answer = desk_take(desk, &request, 1000, now += 1000, &output);
             check_answer(&request, answer);
             accepted += was_learned(&request, answer);
         }

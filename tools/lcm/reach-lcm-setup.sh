@@ -6,17 +6,26 @@ group=239.255.76.67  # LCM's own
 least_buffer=1843200 # bytes of a pair of raw images
 good_buffer=8388608
 dry_run=no
+port=7667
 
 usage() {
     cat <<'TEXT'
 usage: reach-lcm-setup [--dry-run]
+       reach-lcm-setup [--dry-run] [--port PORT] --allow ADDRESS ... | --allow-all
 
 Does what is missing of three things: the multicast flag of the loopback interface, a route for
 multicast by it, so that nothing leaves the machine, and receive buffers that pairs of raw images
 fit in.
 
-To be called by root. It lasts until the machine is switched off; reach-lcm-setup.service does it at each start.
+With --allow, something else: a rule of the kernel's filter (nftables), by which LCM's messages are
+heard from these IPv4 addresses or networks (10.1.2.0/24) and from this machine itself, and from
+nobody else. It takes the place of the rule before.
 
+To be called by root, in the network namespace that is meant. It lasts until the machine is switched off; reach-lcm-setup.service does it at each start.
+
+  --allow A ...   who may speak, all words that follow
+  --allow-all     take the rule away
+  --port PORT     of the bus whose senders are meant; default 7667
   --dry-run       print the commands, do nothing
   -h, --help      this text
   -V, --version   version and git revision
@@ -35,22 +44,61 @@ do_it() {
     [ "$dry_run" = yes ] || sh -c "$*" || fail "that failed; are you root?"
 }
 
-case ${1:-} in
-'') ;;
---dry-run) dry_run=yes ;;
--h | --help)
-    usage
-    exit 0
-    ;;
--V | --version)
-    echo "reach-lcm-setup @REACH_VERSION@"
-    exit 0
-    ;;
-*)
-    echo "reach-lcm-setup: unknown option '$1'; see reach-lcm-setup --help" >&2
+wrong() {
+    echo "reach-lcm-setup: $*; see reach-lcm-setup --help" >&2
     exit 2
-    ;;
-esac
+}
+
+# One transaction: at no moment is there no rule, or half of one.
+allow() {
+    command -v nft >/dev/null || fail "there is no nft command: apt-get install nftables"
+    rules="add table inet reach; delete table inet reach"
+    if [ $# -gt 0 ]; then
+        list=''
+        for address in "$@"; do
+            case $address in
+            *[!0-9./]* | '' | /* | *//*) wrong "'$address' is no IPv4 address or network" ;;
+            esac
+            list="$list${list:+, }$address"
+        done
+        rules="$rules; table inet reach { chain input { type filter hook input priority 0;"
+        rules="$rules udp dport $port fib saddr type local accept;"
+        rules="$rules udp dport $port ip saddr { $list } accept;"
+        rules="$rules udp dport $port counter drop; }; }"
+    fi
+    echo "nft '$rules'"
+    [ "$dry_run" = yes ] || nft "$rules" || fail "nft refused the rule; are you root?"
+    exit 0
+}
+
+while [ $# -gt 0 ]; do
+    case $1 in
+    --dry-run) dry_run=yes ;;
+    --port)
+        shift
+        case ${1:-} in
+        '' | *[!0-9]*) wrong "--port wants a number" ;;
+        esac
+        port=$1
+        ;;
+    --allow)
+        shift
+        [ $# -gt 0 ] || wrong "--allow wants an address"
+        allow "$@"
+        ;;
+    --allow-all) allow ;;
+    -h | --help)
+        usage
+        exit 0
+        ;;
+    -V | --version)
+        echo "reach-lcm-setup @REACH_VERSION@"
+        exit 0
+        ;;
+    *) wrong "unknown option '$1'" ;;
+    esac
+    shift
+done
 command -v ip >/dev/null || fail "there is no ip command: apt-get install iproute2"
 
 flags=$(ip -o link show lo) || fail "there is no loopback interface"

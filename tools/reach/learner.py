@@ -223,12 +223,15 @@ class _UnderWay:
     def __init__(self, learner: Learner, request):
         self._learner, self._request = learner, request
         self._end = time.monotonic() + learner._timeout
+        patience = (request.deadline - request.utime) * 1e-6
+        self._give_up = time.monotonic() + patience  # what is left of it goes along
         self._times = 0
         self._send()
 
     def _send(self) -> None:
         self._times += 1
         self._sent = time.monotonic()
+        self._request.utime = self._request.deadline - int((self._give_up - self._sent) * 1e6)
         self._learner._answers[self._request.seq] = None
         self._learner._lcm.publish("LEARNER_REQUEST", self._request.encode())
 

@@ -31,6 +31,10 @@ from .soak_verdict import HABITS, draw, judge
 KILLS_AN_HOUR = 30.0  # of robot time
 TARGETS, PERIOD_SECONDS = 4, 2.0
 KEPT = 8  # samples of a look that are written down
+STATUS = reach.status_t
+# What the daemon tells of eyes that lie; here none does.
+ALARMS = (STATUS.STILL | STATUS.JUMPS | STATUS.RESTLESS | STATUS.LATE | STATUS.ONE_EYE
+          | STATUS.UNMOVED)  # fmt: skip
 ROLES = {"reachd": reach.hello_t.DAEMON, "vision": reach.hello_t.VISION,
          "simrobot": reach.hello_t.SIMULATOR}  # fmt: skip
 
@@ -108,6 +112,7 @@ class Soak:
         self._end = time.monotonic() + options.minutes * 60
         self._minutes = options.minutes
         self._number = 0
+        self._alarms = 0  # bits of status_t.troubles since the last look
         self.rows: list[dict] = []
         self.kills: list[dict] = []
 
@@ -154,6 +159,8 @@ class Soak:
             "x": [list(s.x)[: s.n_outputs] for s in samples],
             "memory_kb": {name: self._processes.memory_kb(name) for name in self._programs()},
         }
+        row["alarms"] = self._alarms
+        self._alarms = 0
         for name in ("experts", "contexts", "samples", "samples_stored", "gated", "bad_inputs"):
             row[name] = getattr(status, name)
         self.rows.append(row)
@@ -171,6 +178,8 @@ class Soak:
         return [name for name in ROLES if self._processes.runs(name)]
 
     def _strike(self, seconds: float) -> None:
+        if self._bus.status is not None:
+            self._alarms |= self._bus.status.troubles & ALARMS
         if self._random.random() >= self._kill_rate * seconds or self._bus.status is None:
             return
         name = self._random.choice(self._programs())

@@ -46,12 +46,14 @@ def judge(seen: dict) -> tuple[list[str], bool]:
     flat, memory = _memory(rows)
     early, late = _halves([row["experts"] for row in rows])
     first, second = (np.nanmedian(half) for half in _halves(errors_pct(rows)))
+    alarms = sum(row["alarms"] != 0 for row in rows)
     lost = [kill for kill in kills if kill.get("recovered", kill["stored"]) < kill["stored"]]
     promises = [
         ("memory", flat, memory),
         ("experts", late.max() <= early.max() + EXPERTS, f"{early.max()} then {late.max()}"),
         ("error", second <= first * ERROR_SHARE + ERROR_PCT,
          f"{first:.2f} then {second:.2f} % of the spread, median"),
+        ("alarms", not alarms, f"{alarms} of {len(rows)} looks told of eyes that lie; none did"),
         ("samples", not lost, f"{rows[-1]['samples_stored']} safe on disk; after {len(lost)} of"
          f" {len(kills)} kills fewer than said before"),
     ]  # fmt: skip

@@ -4,6 +4,7 @@
 #include "fixture.h"
 #include "learner/finder/seeker.h"
 #include "tests/unit/suite.h"
+#include "wide_arm.h"
 #include "world.h"
 
 #include <math.h>
@@ -15,49 +16,6 @@ static const double noise = 0.0005; /* m */
 static struct seeker seeker;
 static struct chain chain;
 static int moving_at_once;
-
-/* Seven joints of a Franka's proportions, a little out of true. */
-static void make_arm(int64_t seed)
-{
-    static const double axis[7][3] = {{0, 0, 1}, {0, 1, 0},  {0, 0, 1}, {0, -1, 0},
-                                      {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
-    static const double offset[7][3] = {{0, 0, 0.333},  {0, 0, 0},           {0, 0, 0.316},
-                                        {0.0825, 0, 0}, {-0.0825, 0, 0.384}, {0, 0, 0},
-                                        {0.088, 0, 0}};
-    struct random_state random = random_seed(seed);
-
-    memset(&chain, 0, sizeof chain);
-    chain.n = 7;
-    for (int i = 0; i < 7; i++) {
-        double length = 0;
-        for (int k = 0; k < 3; k++) {
-            chain.axis[i][k] = axis[i][k] + random_uniform(&random, -0.03, 0.03);
-            chain.offset[i][k] = offset[i][k] + random_uniform(&random, -0.01, 0.01);
-            length += chain.axis[i][k] * chain.axis[i][k];
-        }
-        for (int k = 0; k < 3; k++)
-            chain.axis[i][k] /= sqrt(length);
-    }
-}
-
-static struct config wide_config(void)
-{
-    static const double middle[7] = {0, 0, 0, -1.6, 0, 1.9, 0};
-    static const double range[7] = {2.88, 1.76, 2.88, 1.4, 2.88, 1.9, 2.88};
-    struct config config = fixture_robot_config("icub.yaml");
-
-    config.learner.features = LEARNER_BODY;
-    config.learner_body_order.n = 0;
-    config.learner.body.noise_share = noise * noise / (0.01 * 0.01);
-    for (int i = 0; i < 7; i++) {
-        config.arm_min.value[i] = middle[i] - range[i];
-        config.arm_max.value[i] = middle[i] + range[i];
-        config.babble_min.value[i] = config.arm_min.value[i] + config.motion_margin;
-        config.babble_max.value[i] = config.arm_max.value[i] - config.motion_margin;
-        config.learner_reference.value[i] = middle[i];
-    }
-    return config;
-}
 
 static void watch(void)
 {
@@ -72,7 +30,7 @@ static void begin_with(struct config config, int64_t seed)
 {
     struct learner_config learner;
 
-    make_arm(seed);
+    chain = wide_arm(seed);
     world_begin(config, noise);
     world.robot.chain = &chain;
     for (int i = 0; i < 7; i++)
@@ -86,7 +44,7 @@ static void begin_with(struct config config, int64_t seed)
 
 static void begin(int64_t seed)
 {
-    begin_with(wide_config(), seed);
+    begin_with(wide_arm_config(noise), seed);
 }
 
 /* Until the behaviour is over; returns how long that takes, s. */
@@ -195,7 +153,7 @@ enum { TRACK = 400 };
 static void track_of(enum learner_features features, double (*track)[7])
 {
     reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 20};
-    struct config config = wide_config();
+    struct config config = wide_arm_config(noise);
     struct random_state random = random_seed(5);
     struct fake_robot there;
 

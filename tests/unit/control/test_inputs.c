@@ -103,6 +103,10 @@ START_TEST(a_bad_request_is_refused)
     ck_assert(!accepts(&request));
     request = (reach_request_t){.kind = REACH_REQUEST_T_SAVE, .count = -1};
     ck_assert(!accepts(&request));
+    request.count = 9999; /* four digits in the file's name */
+    ck_assert(accepts(&request));
+    request.count = 10000;
+    ck_assert(!accepts(&request));
 }
 END_TEST
 

@@ -12,7 +12,7 @@ static int64_t newest; /* number of a request */
 
 enum desk_answer desk_bench_take(const reach_learner_request_t *request)
 {
-    return desk_take(on.desk, request, NOW, &on.output);
+    return desk_take(on.desk, request, 0, NOW, &on.output);
 }
 
 int desk_bench_status(const reach_learner_request_t *request)

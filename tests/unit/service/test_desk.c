@@ -105,18 +105,45 @@ START_TEST(what_is_late_is_not_done)
     desk_bench_forgetful();
     for (size_t i = 0; i < sizeof kinds; i++) {
         request = desk_bench_request(kinds[i]);
+        request.utime = NOW;
         request.deadline = NOW - 1;
         ck_assert_int_eq(desk_bench_status(&request), REPLY(LATE));
     }
     ck_assert_int_eq(on.output.reply.late, sizeof kinds);
     ck_assert_int_eq(on.output.reply.samples, 0);
     request = desk_bench_request(REQUEST(UPDATE));
+    request.utime = NOW - 10;
     request.deadline = NOW;
     ck_assert_int_eq(desk_bench_status(&request), REPLY(DONE));
     /* Done in time: that is told however late somebody asks again. */
-    ck_assert_int_eq(desk_take(on.desk, &request, NOW + 1000000, &on.output), DESK_REPLY);
+    ck_assert_int_eq(desk_take(on.desk, &request, 1000000, NOW, &on.output), DESK_REPLY);
     ck_assert_int_eq(on.output.reply.status, REPLY(DONE));
     ck_assert_int_eq(on.output.reply.sample, 1);
+}
+END_TEST
+
+/* Whatever either clock says: the sender's own patience counts, from when it arrived. */
+START_TEST(no_clock_that_is_set_makes_a_request_late)
+{
+    const int64_t hour = INT64_C(3600000000);
+    reach_learner_request_t request;
+
+    desk_bench_forgetful();
+    for (int ahead = -1; ahead <= 1; ahead++) {
+        request = desk_bench_request(REQUEST(UPDATE));
+        request.utime = NOW + ahead * hour;
+        request.deadline = request.utime + 1000;
+        ck_assert_int_eq(desk_take(on.desk, &request, 1000, NOW, &on.output), DESK_REPLY);
+        ck_assert_int_eq(on.output.reply.status, REPLY(DONE));
+        request = desk_bench_request(REQUEST(UPDATE));
+        request.utime = NOW + ahead * hour;
+        request.deadline = request.utime + 1000;
+        ck_assert_int_eq(desk_take(on.desk, &request, 1001, NOW, &on.output), DESK_REPLY);
+        ck_assert_int_eq(on.output.reply.status, REPLY(LATE));
+    }
+    request.utime = INT64_MIN;
+    request.deadline = INT64_MAX;
+    ck_assert_int_eq(desk_take(on.desk, &request, 1001, NOW, &on.output), DESK_REPLY);
 }
 END_TEST
 
@@ -293,6 +320,7 @@ int main(void)
                             nothing_is_predicted_before_anything_is_known,
                             what_comes_twice_is_learned_once,
                             what_is_late_is_not_done,
+                            no_clock_that_is_set_makes_a_request_late,
                             two_clients_do_not_meet,
                             what_is_wrong_is_refused_and_changes_nothing,
                             only_what_counts_is_looked_at,

@@ -18,6 +18,7 @@ def kept() -> dict:
             "x": rng.normal(size=(8, 3)).tolist(),
             "memory_kb": {"reachd": 20000 + int(rng.integers(100)), "simrobot": 90000},
             "experts": 2,
+            "alarms": 0,
             "samples_stored": 15 * k,
         }
         for k in range(1, LOOKS + 1)
@@ -54,6 +55,10 @@ class Verdict(unittest.TestCase):
         for k, row in enumerate(self.seen["rows"]):
             row["error"] = (np.array(row["error"]) * (1 + k)).tolist()
         self.assertEqual(self.broken(), ["error"])
+
+    def test_false_alarms_are_seen(self):
+        self.seen["rows"][7]["alarms"] = 64
+        self.assertEqual(self.broken(), ["alarms"])
 
     def test_lost_samples_are_seen(self):
         kill = {"program": "reachd", "robot_s": 900.0, "stored": 200, "recovered": 199}
