@@ -48,17 +48,15 @@ public:
     void show(const image_view &left, const image_view &right, const eyes &who,
               const reach_marker_t &marker) override
     {
-        static const char *const reasons[] = {
-            "seen",         "not in the right image", "not in the left image", "heights differ",
-            "sizes differ", "disparity out of range", "images unusable"};
         char caption[160];
 
         if (!show_)
             return;
         snprintf(caption, sizeof caption, "%s  u %.1f  v %.1f  disparity %.1f  radius %.1f px",
-                 reasons[marker.reason], marker.u_right, marker.v_right, marker.disparity,
-                 marker.radius);
-        if (show_window(show_draw(left, right, who, marker.seen, caption)))
+                 stereo_reason_text(static_cast<stereo_reason>(marker.reason)), marker.u_right,
+                 marker.v_right, marker.disparity, marker.radius);
+        if (show_window(
+                show_draw(left, right, who, static_cast<stereo_reason>(marker.reason), caption)))
             return;
         log_warning("the display refuses the window; going on without it");
         show_ = false;

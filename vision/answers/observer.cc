@@ -63,15 +63,16 @@ bool observer::decode(const image_message &images, image_view *left, image_view 
     return !wrong;
 }
 
-/* Of the eye that was looked at last, which is the one that did not see it. */
+/* Of the eye that did not see it. */
 void observer::count_unseen(const stereo_marker &found)
 {
     if (found.reason != STEREO_NOT_IN_RIGHT && found.reason != STEREO_NOT_IN_LEFT)
         return;
-    if (eyes_.work.n_refused == 0)
+    const eye_findings &seen = found.reason == STEREO_NOT_IN_RIGHT ? eyes_.in_right : eyes_.in_left;
+    if (seen.n_refused == 0)
         counts_.no_colour++;
     else
-        counts_.faults[eyes_.work.refused[0].fault]++;
+        counts_.faults[seen.refused[0].fault]++;
 }
 
 void observer::look(const image_message &images, reach_marker_t *marker)

@@ -6,9 +6,10 @@
 
 #include "vision/ball/eyes.h"
 
-/* Left and right picture side by side, the outlines drawn in, BGR. */
-cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who, bool seen,
-                  const char *caption);
+/* Left and right picture side by side, BGR. What was taken is drawn in, and every candidate that
+ * was not, with the reason: why it is no ball, or why the eyes' findings (`reason`) are no pair. */
+cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who,
+                  stereo_reason reason, const char *caption);
 
 /* Whether a display can be reached at all. */
 bool show_possible();

@@ -3,6 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+const char *stereo_reason_text(stereo_reason reason)
+{
+    static const char *const texts[STEREO_REASONS] = {
+        "seen",
+        "not in the right image",
+        "not in the left image",
+        "heights differ (check.height)",
+        "sizes differ (check.size, ball.radius)",
+        "disparity out of range (check.disparity_min, check.disparity_max)",
+        "images unusable"};
+
+    return texts[reason];
+}
+
 /* A line of sight in the frame between the eyes: slopes to the right and down. */
 struct slopes {
     double across;

@@ -31,7 +31,11 @@ enum stereo_reason {
     STEREO_SIZES_DIFFER = 4,
     STEREO_DISPARITY_RANGE = 5,
     STEREO_UNUSABLE = 6,
+    STEREO_REASONS,
 };
+
+/* What a person is told of it: "heights differ (check.height)". */
+const char *stereo_reason_text(stereo_reason reason);
 
 /* What is said of a pair. All zero unless `reason` is STEREO_SEEN. */
 struct stereo_marker {

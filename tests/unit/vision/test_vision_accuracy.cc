@@ -225,9 +225,9 @@ START_TEST(what_was_refused_is_named)
         eyes_init(&who, one.config);
         const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
         ck_assert_int_eq(marker.reason, STEREO_NOT_IN_RIGHT);
-        ck_assert(!who.looked_left);
-        ck_assert_int_ge(who.work.n_refused, 1);
-        ck_assert_int_eq(who.work.refused[0].fault, one.fault);
+        ck_assert_int_eq(who.in_right.n_found, 0);
+        ck_assert_int_ge(who.in_right.n_refused, 1);
+        ck_assert_int_eq(who.in_right.refused[0].fault, one.fault);
         statistics counts;
         char line[512];
         counts.faults[one.fault] = 3;
