@@ -45,6 +45,8 @@
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
     WHOLE("camera.height", height, "px", "480", 32, 4096, "height of both cameras' pictures"),
+    NUMBER("camera.rate", camera_rate, "1/s", "30", 0, 1000,
+           "pictures per second that are asked of cameras (--cameras); 0 = what they have"),
     EYE_ROWS(left),
     EYE_ROWS(right),
     NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,

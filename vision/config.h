@@ -20,7 +20,7 @@ struct vision_config {
     double height_tolerance, size_tolerance, disparity_min, disparity_max;
     double window_margin, window_growth, memory;
     int window_step, whole_step, recheck;
-    double drop_after, video_rate;
+    double drop_after, video_rate, camera_rate;
 };
 
 /* Reads the table's defaults, then the file (nullptr: none), then the overrides "name=value".

@@ -19,8 +19,9 @@
 #include "vision/arguments.h"
 #include "vision/bench.h"
 #include "vision/config.h"
+#include "vision/learning.h"
+#include "vision/pairs.h"
 #include "vision/pictures/receive_buffer.h"
-#include "vision/rig/calibrate.h"
 #include "vision/rig/from_opencv.h"
 #include "vision/rig/rig_file.h"
 
@@ -80,26 +81,6 @@ static void catch_signals()
     action.sa_handler = ask_stop;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-}
-
-static std::unique_ptr<source> open_source(const arguments &given, const vision_config &config,
-                                           lcm_t *lcm, pair_receiver *receiver)
-{
-    const camera eye = config_eyes(config).rig.left;
-    std::unique_ptr<source> pairs;
-    char error[512] = "";
-
-    if (given.cameras[0])
-        pairs =
-            source_cameras(given.cameras[0], given.cameras[1], eye, receiver, error, sizeof error);
-    else if (given.videos[0])
-        pairs = source_videos(given.videos[0], given.videos[1], config.video_rate, receiver, error,
-                              sizeof error);
-    else
-        pairs = source_bus(lcm, "STEREO_IMAGES", receiver, error, sizeof error);
-    if (!pairs)
-        log_error("%s", error);
-    return pairs;
 }
 
 static void report(const statistics &counts)
@@ -182,36 +163,21 @@ static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
 {
     bus_publisher publisher(lcm, given.show);
     observer seer(config_eyes(config), static_cast<int64_t>(config.drop_after * 1e6), &publisher);
-    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &seer);
+    const std::unique_ptr<source> pairs = pairs_open(given, config, lcm, &seer);
 
     if (!pairs)
         return 1;
     log_info("ready");
     notify_send("READY=1");
-    int code = serve(pairs.get(), lcm, given.cameras[0] || given.videos[0], seer.counts());
+    int code = serve(pairs.get(), lcm, !pairs_on_bus(given), seer.counts());
     report(seer.counts());
-    if (given.videos[0] && statistics_nothing_usable(seer.counts())) {
-        log_error("not one pair of frames could be used: see the warnings above");
+    if ((given.videos[0] || given.log) && statistics_nothing_usable(seer.counts())) {
+        log_error("not one pair could be used: see the warnings above");
         code = 1;
     }
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
     return code;
-}
-
-/* Until the ball was moved long enough, the pairs end, or a signal comes. */
-static int calibrate(const arguments &given, const vision_config &config, lcm_t *lcm)
-{
-    rig_calibrator learner(config_eyes(config));
-    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &learner);
-    source_state state = SOURCE_OPEN;
-
-    if (!pairs)
-        return 1;
-    log_info("move the ball slowly through both eyes' pictures, near and far, for 30 s");
-    while (!stop_asked && state == SOURCE_OPEN && !learner.done())
-        state = pairs->poll(poll_ms);
-    return learner.finish(given.calibrate, given.draw) ? 1 : 0;
 }
 
 static int print_from_opencv(const arguments &given, const vision_config &config)
@@ -244,7 +210,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     else if (taken < 0)
         log_error("LCM failed while asking for other vision processes");
     else
-        code = given.calibrate ? calibrate(given, config, lcm) : see(given, config, lcm);
+        code = see(given, config, lcm);
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return code;
@@ -276,11 +242,13 @@ int main(int argc, char **argv)
         log_error("--show: no display (DISPLAY and WAYLAND_DISPLAY are not set)");
         return 1;
     }
+    catch_signals();
+    if (learning_asked(given))
+        return learning_run(given, config, &stop_asked);
     if (config.ball_radius <= 0)
         log_warning(
             "ball.radius is not set: a thing of the ball's colour but of another size can be "
             "taken for it; set the true radius in metres");
-    catch_signals();
     receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
                          6);
     return run_on_bus(given, config);

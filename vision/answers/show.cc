@@ -84,6 +84,22 @@ cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &w
     return both;
 }
 
+static struct {
+    show_click_fn *call;
+    void *user;
+} on_click;
+
+static void take_event(int event, int column, int row, int, void *)
+{
+    if (event == cv::EVENT_LBUTTONDOWN)
+        on_click.call(column, row, on_click.user);
+}
+
+void show_on_click(show_click_fn *click, void *user)
+{
+    on_click = {click, user};
+}
+
 bool show_possible()
 {
     return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
@@ -93,6 +109,8 @@ bool show_window(const cv::Mat &picture)
 {
     try {
         cv::imshow(title, picture);
+        if (on_click.call)
+            cv::setMouseCallback(title, take_event);
         cv::waitKey(1);
     } catch (const cv::Exception &) {
         return false;

@@ -17,4 +17,9 @@ bool show_possible();
 /* Shows a picture and serves the window's events. Returns false when the display refuses. */
 bool show_window(const cv::Mat &picture);
 
+/* Calls back for each click of the left button with the pixel's column and row, from within
+ * show_window. */
+typedef void show_click_fn(int column, int row, void *user);
+void show_on_click(show_click_fn *click, void *user);
+
 #endif

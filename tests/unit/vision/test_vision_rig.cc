@@ -31,16 +31,6 @@ static scene_eyes crooked_eyes()
     return eyes;
 }
 
-static encoded_image encoded(const picture &from)
-{
-    return {from.rgb.data(),
-            from.rgb.size(),
-            from.width,
-            from.height,
-            static_cast<size_t>(from.width) * 3,
-            PIXEL_FORMAT_RGB};
-}
-
 static void show_ball(rig_calibrator *learner, int i, std::mt19937_64 &random)
 {
     const picture_pair pair = fixture_draw(scene_random(random), crooked_eyes(), random);
@@ -48,8 +38,8 @@ static void show_ball(rig_calibrator *learner, int i, std::mt19937_64 &random)
 
     incoming.waited = 0;
     incoming.images.utime = 1000000 + 100000 * i;
-    incoming.images.left = encoded(pair.left);
-    incoming.images.right = encoded(pair.right);
+    incoming.images.left = fixture_encoded(pair.left);
+    incoming.images.right = fixture_encoded(pair.right);
     learner->take(incoming);
 }
 
