@@ -46,6 +46,9 @@ static const argument_row rows[] = {
         "moves, unless --at or a click (--show) says where the ball is"),
     ARGUMENT_CALL("at", "COLUMN,ROW", take_at,
                   "with --learn-colour: a pixel of the ball in the first picture"),
+    ARGUMENT_TEXT("print-tag", 0, "FILE", arguments, print_tag,
+                  "no bus: write the configured tag as a picture to print (marker.dictionary, "
+                  "marker.id)"),
     ARGUMENT_LIST("from-opencv", 0, "FILE", arguments, opencv, n_opencv, 2,
                   "no bus: print the YAML of a rig that OpenCV's stereo calibration measured "
                   "(M1, D1, M2, D2, R, T; may be given twice, as they often are in two files)"),
@@ -57,7 +60,8 @@ static const command_line line = {
     "reach-vision [--config FILE] [--set NAME=VALUE]... [--url URL] [--stats FILE] [--show]\n"
     "                    [--cameras LEFT RIGHT | --videos LEFT RIGHT | --log FILE | --bench PAIR]\n"
     "                    [--calibrate FILE | --learn-colour SOURCE [--at COLUMN,ROW] | "
-    "--from-opencv FILE] [--draw FILE]",
+    "--from-opencv FILE |\n"
+    "                     --print-tag FILE] [--draw FILE]",
     "Finds the ball in pairs of pictures and says where it is on channel MARKER.\n"
     "Pairs come from channel STEREO_IMAGES unless cameras or videos are named.",
     rows,

@@ -14,6 +14,7 @@ struct arguments {
     const char *draw = nullptr;
     const char *calibrate = nullptr;
     const char *learn_colour = nullptr;
+    const char *print_tag = nullptr;
     pixel_point at = {0, 0};
     bool has_at = false;
     const char *opencv[2] = {nullptr, nullptr};

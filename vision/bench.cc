@@ -1,12 +1,11 @@
 #include "vision/bench.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <cstdio>
 
 #include "common/program/log.h"
 #include "vision/answers/show.h"
 #include "vision/answers/statistics.h"
+#include "vision/pictures/image_file.h"
 
 static const int rounds = 500;
 static const int64_t period = 33000; /* us between the stamps */
@@ -23,11 +22,7 @@ static bool load(const char *path, const eyes_config &config, cv::Mat *both)
 {
     const camera &eye = config.rig.left;
 
-    try {
-        *both = cv::imread(path, cv::IMREAD_COLOR);
-    } catch (const cv::Exception &) {
-        both->release();
-    }
+    *both = image_file_read(path);
     if (both->cols == 2 * eye.width && both->rows == eye.height)
         return true;
     log_error("%s is no picture of two eyes side by side, %d x %d pixels each", path, eye.width,
@@ -86,8 +81,8 @@ int bench_run(const char *path, const eyes_config &config, const char *drawing)
     if (seen)
         measure("window", config, rounds + 1, both);
     if (!drawing ||
-        cv::imwrite(drawing, show_draw(half(both, true), half(both, false), who, marker.reason,
-                                       stereo_reason_text(marker.reason))))
+        image_file_write(drawing, show_draw(half(both, true), half(both, false), who, marker.reason,
+                                            stereo_reason_text(marker.reason))))
         return 0;
     log_error("%s cannot be written", drawing);
     return -1;

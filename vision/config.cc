@@ -55,6 +55,14 @@ static const struct option_row table[] = {
     NUMBER("eyes.most_apart", most_apart, "s", "0.02", 0, 1,
            "greatest difference between the two pictures' own time stamps, where they have some; "
            "pairs further apart are unusable; 0 = not checked"),
+    {"marker.dictionary", OPTION_CHOICE, AT(tag_dictionary), nullptr, "none", 0, 0,
+     "a printed tag of this dictionary of ArUco's or AprilTag's is the marker, and no ball; none = "
+     "the marker is a ball",
+     TAG_DICTIONARIES},
+    WHOLE("marker.id", tag_id, nullptr, "0", 0, 2400, "number of the tag in its dictionary"),
+    NUMBER("marker.size", tag_size, "m", "0", 0, 1,
+           "side of the tag's black square; a tag of another size is refused; 0 = not known, not "
+           "checked"),
     NUMBER("ball.hue", hue, "deg", "120", 0, 360,
            "middle of the ball's hue: 0 = red, 120 = green, 240 = blue"),
     NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180,
@@ -117,6 +125,8 @@ static const char *contradiction(const vision_config &config)
         return "ball.saturation_min must be less than ball.saturation_max";
     if (config.disparity_min >= config.disparity_max)
         return "check.disparity_min must be less than check.disparity_max";
+    if (config.tag_dictionary > 0 && config.tag_id >= tag_count(config.tag_dictionary))
+        return "marker.dictionary has no tag of the number marker.id";
     return nullptr;
 }
 
@@ -151,7 +161,9 @@ eyes_config config_eyes(const vision_config &c)
                         c.right_pitch,    c.right_roll};
     result.rig.vergence = c.vergence;
     result.rig.baseline = c.baseline;
-    result.rig.ball_radius = c.ball_radius;
+    result.tag = {c.tag_dictionary, c.tag_id};
+    /* What a tag is found as: a ball whose diameter is its side. */
+    result.rig.ball_radius = c.tag_dictionary > 0 ? c.tag_size / 2 : c.ball_radius;
     result.rig.height_tolerance = c.height_tolerance;
     result.rig.size_tolerance = c.size_tolerance;
     result.rig.disparity_min = c.disparity_min;

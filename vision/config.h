@@ -15,6 +15,8 @@ struct vision_config {
     double right_focal, right_centre_u, right_centre_v, right_k1, right_k2;
     double right_k3, right_p1, right_p2, right_aspect, right_yaw, right_pitch, right_roll;
     double vergence, baseline, most_apart;
+    int tag_dictionary, tag_id;
+    double tag_size;
     double hue, hue_tolerance, saturation_min, saturation_max, value_min;
     double ball_radius, radius_min, radius_max, coverage_min, fill_min, roughness;
     double height_tolerance, size_tolerance, disparity_min, disparity_max;

@@ -83,6 +83,12 @@ int learning_run(const arguments &given, const vision_config &config,
     char error[512];
     lcm_t *lcm = nullptr;
 
+    if (given.calibrate && config.tag_dictionary > 0) {
+        log_error(
+            "--calibrate learns from a ball; leave marker.dictionary out while you calibrate, "
+            "or use --from-opencv");
+        return 1;
+    }
     if (pairs_on_bus(given) && !(lcm = bus_open(given.url, error, sizeof error))) {
         log_error("%s", error);
         return 1;

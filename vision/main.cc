@@ -21,12 +21,14 @@
 #include "vision/config.h"
 #include "vision/learning.h"
 #include "vision/pairs.h"
+#include "vision/pictures/image_file.h"
 #include "vision/pictures/receive_buffer.h"
 #include "vision/rig/from_opencv.h"
 #include "vision/rig/rig_file.h"
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;
+static const int tag_side = 1200;              /* px, of a tag to print */
 static const int64_t report_period = 60000000; /* us, in the log */
 static const int64_t tell_period = 1000000;    /* us, to the service manager */
 
@@ -193,6 +195,19 @@ static int print_from_opencv(const arguments &given, const vision_config &config
     return 0;
 }
 
+static int print_tag(const arguments &given, const vision_config &config)
+{
+    if (config.tag_dictionary == 0) {
+        log_error("--print-tag: no tag is configured; set marker.dictionary and marker.id");
+        return 1;
+    }
+    if (image_file_write(given.print_tag,
+                         tag_picture({config.tag_dictionary, config.tag_id}, tag_side)))
+        return 0;
+    log_error("%s cannot be written", given.print_tag);
+    return 1;
+}
+
 static int run_on_bus(const arguments &given, const vision_config &config)
 {
     struct bus_claim *claim = nullptr;
@@ -236,6 +251,8 @@ int main(int argc, char **argv)
     cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
     if (given.n_opencv > 0)
         return print_from_opencv(given, config);
+    if (given.print_tag)
+        return print_tag(given, config);
     if (given.bench)
         return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;
     if (given.show && !show_possible()) {
@@ -245,10 +262,13 @@ int main(int argc, char **argv)
     catch_signals();
     if (learning_asked(given))
         return learning_run(given, config, &stop_asked);
-    if (config.ball_radius <= 0)
+    if (config_eyes(config).rig.ball_radius <= 0)
         log_warning(
-            "ball.radius is not set: a thing of the ball's colour but of another size can be "
-            "taken for it; set the true radius in metres");
+            config.tag_dictionary > 0
+                ? "marker.size is not set: a tag of the same number but of another size can "
+                  "be taken for it; set the side of its black square in metres"
+                : "ball.radius is not set: a thing of the ball's colour but of another size "
+                  "can be taken for it; set the true radius in metres");
     receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
                          6);
     return run_on_bus(given, config);

@@ -69,7 +69,9 @@ void observer::count_unseen(const stereo_marker &found)
     if (found.reason != STEREO_NOT_IN_RIGHT && found.reason != STEREO_NOT_IN_LEFT)
         return;
     const eye_findings &seen = found.reason == STEREO_NOT_IN_RIGHT ? eyes_.in_right : eyes_.in_left;
-    if (seen.n_refused == 0)
+    if (seen.n_refused == 0 && eyes_.tags.dictionary)
+        counts_.faults[BLOB_NO_TAG]++;
+    else if (seen.n_refused == 0)
         counts_.no_colour++;
     else
         counts_.faults[seen.refused[0].fault]++;

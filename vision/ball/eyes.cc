@@ -11,14 +11,20 @@ void eyes_init(eyes *who, const eyes_config &config)
     who->work.range = config.colour;
     who->work.colours = colour_table_create(config.colour);
     who->work.limits = config.limits;
+    who->tags = tag_finder_create(config.tag);
 }
 
-static void look_with(segmenter *work, const image_view &image, const camera &eye,
+static void look_with(eyes *who, const image_view &image, const camera &eye,
                       const image_region &part, int step, eye_findings *seen)
 {
-    seen->n_found = segment_find(work, image, eye, part, step, seen->found);
-    seen->n_refused = work->n_refused;
-    std::copy(work->refused, work->refused + work->n_refused, seen->refused);
+    if (who->tags.dictionary) {
+        seen->n_found =
+            tag_find(&who->tags, image, eye, part, seen->found, seen->refused, &seen->n_refused);
+        return;
+    }
+    seen->n_found = segment_find(&who->work, image, eye, part, step, seen->found);
+    seen->n_refused = who->work.n_refused;
+    std::copy(who->work.refused, who->work.refused + seen->n_refused, seen->refused);
 }
 
 static stereo_marker look_in(eyes *who, const image_view &left, const image_region &left_part,
@@ -30,10 +36,10 @@ static stereo_marker look_in(eyes *who, const image_view &left, const image_regi
     int i = 0;
     int j = 0;
 
-    look_with(&who->work, right, rig.right, right_part, step, &in_right);
+    look_with(who, right, rig.right, right_part, step, &in_right);
     in_left.n_found = in_left.n_refused = 0;
     if (in_right.n_found > 0)
-        look_with(&who->work, left, rig.left, left_part, step, &in_left);
+        look_with(who, left, rig.left, left_part, step, &in_left);
     const stereo_marker marker =
         stereo_match(rig, in_left.found, in_left.n_found, in_right.found, in_right.n_found, &i, &j);
     if (marker.reason == STEREO_SEEN) {

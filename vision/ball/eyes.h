@@ -8,10 +8,12 @@
 
 #include "vision/ball/segment.h"
 #include "vision/ball/stereo.h"
+#include "vision/ball/tag.h"
 #include "vision/ball/track.h"
 
 struct eyes_config {
     colour_range colour;
+    tag_config tag; /* sought instead of the ball where it has a dictionary */
     segment_limits limits;
     stereo_rig rig;
     track_window window;
@@ -32,6 +34,7 @@ struct eye_findings {
 struct eyes {
     eyes_config config;
     segmenter work;
+    tag_finder tags;
     track left;
     track right;
     int64_t newest;   /* newest stamp so far, 0 = none; us */

@@ -1,12 +1,12 @@
 #include "vision/colour/learner.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 
 #include "common/program/log.h"
 #include "vision/colour/seeds.h"
+#include "vision/pictures/image_file.h"
 
 static const int64_t enough_time = 5000000; /* us of pairs */
 static const int64_t between = 120000;      /* us: of all pictures so many are enough */
@@ -155,11 +155,7 @@ static bool draw(const cv::Mat &picture, const blob &ball, const colour_range &r
                 drawn.at<cv::Vec3b>(row, column) /= 3;
     cv::circle(drawn, {static_cast<int>(ball.pixel.column), static_cast<int>(ball.pixel.row)},
                static_cast<int>(ball.radius), cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
-    try {
-        return cv::imwrite(path, drawn);
-    } catch (const cv::Exception &) {
-        return false;
-    }
+    return image_file_write(path, drawn);
 }
 
 int colour_learner::finish(FILE *out, const char *drawing)

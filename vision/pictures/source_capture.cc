@@ -1,4 +1,3 @@
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "common/bus/open.h"
 #include "common/program/log.h"
 #include "vision/pictures/camera_setup.h"
+#include "vision/pictures/image_file.h"
 #include "vision/pictures/source.h"
 
 static const double default_rate = 30; /* frames/s, for files that do not say */
@@ -180,15 +180,6 @@ private:
     cv::Mat picture_;
     pair_receiver *receiver_;
 };
-
-cv::Mat read_picture(const char *name)
-{
-    try {
-        return cv::imread(name, cv::IMREAD_COLOR);
-    } catch (const cv::Exception &) {
-        return {};
-    }
-}
 } // namespace
 
 std::unique_ptr<source> source_one(const char *name, const camera &eye, double rate,
@@ -196,7 +187,7 @@ std::unique_ptr<source> source_one(const char *name, const camera &eye, double r
 {
     if (strncmp(name, "/dev/", 5) == 0)
         return source_cameras(name, nullptr, eye, rate, receiver, error, error_size);
-    const cv::Mat picture = read_picture(name);
+    const cv::Mat picture = image_file_read(name);
     if (!picture.empty())
         return std::make_unique<picture_source>(picture, receiver);
     return source_videos(name, nullptr, 0, receiver, error, error_size);
