@@ -9,7 +9,8 @@ static const int64_t live_within = 10000000;     /* us */
 static const int64_t complaint_period = 1000000; /* us */
 
 observer::observer(const eyes_config &config, int64_t drop_after_us, marker_receiver *receiver)
-    : receiver_(receiver), drop_after_us_(drop_after_us)
+    : left_(config.tag.dictionary > 0), right_(config.tag.dictionary > 0), receiver_(receiver),
+      drop_after_us_(drop_after_us)
 {
     eyes_init(&eyes_, config);
 }
@@ -92,7 +93,9 @@ void observer::look(const image_message &images, reach_marker_t *marker)
     time_histogram_add(&counts_.look, marker->compute_us);
     counts_.windows += eyes_.used_window;
     count_unseen(found);
-    const char *const doubt = doubts_add(&doubts_, images, found);
+    const bool grey =
+        found.reason == STEREO_NOT_IN_RIGHT && !eyes_.tags.dictionary && doubts_colourless(right);
+    const char *const doubt = doubts_add(&doubts_, images, found, grey);
     if (doubt)
         complain("in doubt", doubt);
     marker->seen = found.reason == STEREO_SEEN;

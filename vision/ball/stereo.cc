@@ -102,13 +102,19 @@ stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &
     return STEREO_SEEN;
 }
 
-/* Whether the lines of sight meet behind the eyes. */
-static bool meet_behind(const stereo_rig &rig, const blob &left, const blob &right)
+/* What two findings would mean if they were one ball. */
+static void interpret(const stereo_rig &rig, const blob &left, const blob &right,
+                      stereo_marker *marker)
 {
     const sights seen = sights_of(rig, left, right);
+    const slopes from_left = turned(seen.left, rig.vergence / 2);
+    const slopes from_right = turned(seen.right, -rig.vergence / 2);
+    const double closing = from_left.across - from_right.across;
 
-    return turned(seen.left, rig.vergence / 2).across <
-           turned(seen.right, -rig.vergence / 2).across;
+    marker->meets_behind = closing < 0;
+    if (closing > 0)
+        marker->true_radius = (relative_size(left, from_left) + relative_size(right, from_right)) /
+                              2 * rig.baseline / closing;
 }
 
 static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
@@ -143,7 +149,7 @@ stereo_marker stereo_match(const stereo_rig &rig, const blob *left, int n_left, 
             best = score;
             marker = seen ? marker_of(rig, left[i], right[j]) : stereo_marker();
             marker.reason = reason;
-            marker.meets_behind = meet_behind(rig, left[i], right[j]);
+            interpret(rig, left[i], right[j], &marker);
             if (!seen)
                 continue;
             *left_index = i;

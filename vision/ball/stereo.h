@@ -47,6 +47,9 @@ struct stereo_marker {
     /* The lines of sight to what was found in both eyes, also where it was refused, part ahead and
      * meet behind: as if the eyes were swapped. */
     bool meets_behind = false;
+    /* The ball's true radius as both eyes make it out, if eyes.baseline is right; m. Likewise also
+     * where it was refused; 0 where they do not meet ahead. */
+    double true_radius = 0;
 };
 
 /* How much higher the left eye sees a thing than the right, where both directions (the cameras' own
