@@ -42,6 +42,9 @@
         NUMBER(#eye ".roll", eye##_roll, "deg", "0", -45, 45,                                      \
                "turn of the " #eye " camera about its optical axis, clockwise as it looks")
 
+/* px: how wide the picture is that tolerances and windows are written for; they grow with it. */
+static const double usual_width = 640;
+
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
     WHOLE("camera.height", height, "px", "480", 32, 4096, "height of both cameras' pictures"),
@@ -89,17 +92,20 @@ static const struct option_row table[] = {
            "where that is more; less where only a part of the outline is seen"),
     NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
            "greatest difference between the ball's heights in the two pictures, corrected for "
-           "vergence"),
+           "vergence, in a picture 640 px wide; 2 % of the ball's radius where that is more"),
     NUMBER("check.size", size_tolerance, nullptr, "0.15", 0.01, 1,
            "greatest relative difference between the ball's sizes in the two pictures"),
     NUMBER("check.disparity_min", disparity_min, "px", "-300", -4000, 4000,
-           "smallest disparity that is accepted"),
+           "smallest disparity that is accepted, in a picture 640 px wide"),
     NUMBER("check.disparity_max", disparity_max, "px", "300", -4000, 4000,
-           "largest disparity that is accepted"),
-    NUMBER("track.margin", window_margin, "px", "24", 4, 1000,
-           "distance by which the search window reaches beyond the expected ball"),
+           "largest disparity that is accepted, in a picture 640 px wide"),
+    NUMBER(
+        "track.margin", window_margin, "px", "24", 4, 1000,
+        "distance by which the search window reaches beyond the expected ball, in a picture 640 px "
+        "wide"),
     NUMBER("track.growth", window_growth, "px/s", "300", 0, 10000,
-           "speed at which the search window grows while the ball is not seen"),
+           "speed at which the search window grows while the ball is not seen, in a picture 640 px "
+           "wide"),
     NUMBER("track.memory", memory, "s", "0.5", 0, 2,
            "time without a sighting after which the whole pictures are searched at once"),
     WHOLE("track.window_step", window_step, "px", "3", 1, 8,
@@ -148,6 +154,7 @@ void config_print(FILE *out)
 
 eyes_config config_eyes(const vision_config &c)
 {
+    const double scale = c.width / usual_width;
     eyes_config result;
 
     result.colour = {c.hue, c.hue_tolerance, c.saturation_min, c.saturation_max, c.value_min};
@@ -164,11 +171,12 @@ eyes_config config_eyes(const vision_config &c)
     result.tag = {c.tag_dictionary, c.tag_id};
     /* What a tag is found as: a ball whose diameter is its side. */
     result.rig.ball_radius = c.tag_dictionary > 0 ? c.tag_size / 2 : c.ball_radius;
-    result.rig.height_tolerance = c.height_tolerance;
+    result.rig.height_tolerance = scale * c.height_tolerance;
     result.rig.size_tolerance = c.size_tolerance;
-    result.rig.disparity_min = c.disparity_min;
-    result.rig.disparity_max = c.disparity_max;
-    result.window = {c.window_margin, c.window_growth, static_cast<int64_t>(c.memory * 1e6)};
+    result.rig.disparity_min = scale * c.disparity_min;
+    result.rig.disparity_max = scale * c.disparity_max;
+    result.window = {scale * c.window_margin, scale * c.window_growth,
+                     static_cast<int64_t>(c.memory * 1e6)};
     result.window_step = c.window_step;
     result.whole_step = c.whole_step;
     result.most_apart = static_cast<int64_t>(c.most_apart * 1e6);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+static const double height_share = 0.02; /* of the ball's radius */
+
 const char *stereo_reason_text(stereo_reason reason)
 {
     static const char *const texts[STEREO_REASONS] = {
@@ -76,6 +78,13 @@ double stereo_height(const stereo_rig &rig, const direction &left, const directi
     return (from_right.down - from_left.down) * rig.right.focal;
 }
 
+/* A large ball is located less well, in pixels: it is seen less sharp, and less round. */
+static double height_limit(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    return std::max(rig.height_tolerance, height_share * rig.right.focal *
+                                              std::max(left.cone.tangent, right.cone.tangent));
+}
+
 stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &right)
 {
     const sights seen = sights_of(rig, left, right);
@@ -86,7 +95,8 @@ stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &
     const double right_size = relative_size(right, from_right);
     const double disparity = pinhole_u(rig.left, seen.left) - pinhole_u(rig.right, seen.right);
 
-    if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <= rig.height_tolerance))
+    if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <=
+          height_limit(rig, left, right)))
         return STEREO_HEIGHTS_DIFFER;
     if (differ(left_size, right_size, rig.size_tolerance))
         return STEREO_SIZES_DIFFER;

@@ -16,7 +16,7 @@ struct stereo_rig {
     double vergence;         /* angle between the optical axes, 0 = parallel; rad */
     double baseline;         /* m; only used where ball_radius is */
     double ball_radius;      /* m; 0 = unknown */
-    double height_tolerance; /* px, after the vergence is taken out */
+    double height_tolerance; /* px, after the vergence is taken out; 2 % of the radius if more */
     double size_tolerance;   /* relative, between the eyes and to ball_radius */
     double disparity_min;    /* px */
     double disparity_max;    /* px */
