@@ -70,6 +70,36 @@ static sights sights_of(const stereo_rig &rig, const blob &left, const blob &rig
     return {camera_upright(rig.left, left.cone.axis), camera_upright(rig.right, right.cone.axis)};
 }
 
+/* Two findings in the frame between the eyes. */
+struct views {
+    sights seen;
+    slopes from_left;
+    slopes from_right;
+    double closing; /* baseline / depth */
+    double left_size;
+    double right_size;
+};
+
+static views views_of(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    const sights seen = sights_of(rig, left, right);
+    const slopes from_left = turned(seen.left, rig.vergence / 2);
+    const slopes from_right = turned(seen.right, -rig.vergence / 2);
+
+    return {seen,
+            from_left,
+            from_right,
+            from_left.across - from_right.across,
+            relative_size(left, from_left),
+            relative_size(right, from_right)};
+}
+
+/* The ball's true radius, where the lines of sight meet ahead; m. */
+static double true_radius(const stereo_rig &rig, const views &both)
+{
+    return (both.left_size + both.right_size) / 2 * rig.baseline / both.closing;
+}
+
 double stereo_height(const stereo_rig &rig, const direction &left, const direction &right)
 {
     const slopes from_left = turned(camera_upright(rig.left, left), rig.vergence / 2);
@@ -87,26 +117,21 @@ static double height_limit(const stereo_rig &rig, const blob &left, const blob &
 
 stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &right)
 {
-    const sights seen = sights_of(rig, left, right);
-    const slopes from_left = turned(seen.left, rig.vergence / 2);
-    const slopes from_right = turned(seen.right, -rig.vergence / 2);
-    const double closing = from_left.across - from_right.across; /* baseline / depth */
-    const double left_size = relative_size(left, from_left);
-    const double right_size = relative_size(right, from_right);
-    const double disparity = pinhole_u(rig.left, seen.left) - pinhole_u(rig.right, seen.right);
+    const views both = views_of(rig, left, right);
+    const double height = both.from_left.down - both.from_right.down;
+    const double disparity =
+        pinhole_u(rig.left, both.seen.left) - pinhole_u(rig.right, both.seen.right);
 
-    if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <=
-          height_limit(rig, left, right)))
+    if (!(std::fabs(height) * rig.right.focal <= height_limit(rig, left, right)))
         return STEREO_HEIGHTS_DIFFER;
-    if (differ(left_size, right_size, rig.size_tolerance))
+    if (differ(both.left_size, both.right_size, rig.size_tolerance))
         return STEREO_SIZES_DIFFER;
     if (!(disparity >= rig.disparity_min && disparity <= rig.disparity_max))
         return STEREO_DISPARITY_RANGE;
     if (rig.ball_radius > 0) {
-        if (!(closing > 0))
+        if (!(both.closing > 0))
             return STEREO_DISPARITY_RANGE;
-        const double depth = rig.baseline / closing;
-        if (differ((left_size + right_size) / 2 * depth, rig.ball_radius, rig.size_tolerance))
+        if (differ(true_radius(rig, both), rig.ball_radius, rig.size_tolerance))
             return STEREO_SIZES_DIFFER;
     }
     return STEREO_SEEN;
@@ -116,15 +141,11 @@ stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &
 static void interpret(const stereo_rig &rig, const blob &left, const blob &right,
                       stereo_marker *marker)
 {
-    const sights seen = sights_of(rig, left, right);
-    const slopes from_left = turned(seen.left, rig.vergence / 2);
-    const slopes from_right = turned(seen.right, -rig.vergence / 2);
-    const double closing = from_left.across - from_right.across;
+    const views both = views_of(rig, left, right);
 
-    marker->meets_behind = closing < 0;
-    if (closing > 0)
-        marker->true_radius = (relative_size(left, from_left) + relative_size(right, from_right)) /
-                              2 * rig.baseline / closing;
+    marker->meets_behind = both.closing < 0;
+    if (both.closing > 0)
+        marker->true_radius = true_radius(rig, both);
 }
 
 static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
