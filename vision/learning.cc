@@ -3,6 +3,7 @@
 #include <lcm/lcm.h>
 
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 #include "common/bus/open.h"
@@ -70,7 +71,7 @@ static int learn_colour(const arguments &given, const vision_config &config, lcm
     }
     while (given.show && !*stop && !learner.pointed() && show_window(learner.newest()))
         ; /* the pictures have ended; the click has still to come */
-    if (!given.cameras[0])
+    if (strncmp(given.learn_colour, "/dev/", 5) != 0) /* a camera has been asked itself */
         log_info("cameras that set white balance and exposure themselves change the ball's colour; "
                  "lock them: v4l2-ctl -d /dev/videoN -c white_balance_automatic=0 -c "
                  "auto_exposure=1");
