@@ -161,6 +161,18 @@ static int write_stats(const char *path, const statistics &counts)
     return 1;
 }
 
+/* Whether recorded pairs were of no use, which is then said. */
+static bool in_vain(const arguments &given, const statistics &counts)
+{
+    if (given.log && counts.pairs + counts.malformed == 0)
+        log_error("%s: no pairs of pictures (channel STEREO_IMAGES) are in it", given.log);
+    else if ((given.videos[0] || given.log) && statistics_nothing_usable(counts))
+        log_error("not one pair could be used: see the warnings above");
+    else
+        return false;
+    return true;
+}
+
 static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
 {
     bus_publisher publisher(lcm, given.show);
@@ -173,10 +185,8 @@ static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
     notify_send("READY=1");
     int code = serve(pairs.get(), lcm, !pairs_on_bus(given), seer.counts());
     report(seer.counts());
-    if ((given.videos[0] || given.log) && statistics_nothing_usable(seer.counts())) {
-        log_error("not one pair could be used: see the warnings above");
+    if (in_vain(given, seer.counts()))
         code = 1;
-    }
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
     return code;

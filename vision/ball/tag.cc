@@ -75,12 +75,12 @@ static double distance_of(const direction *views)
 {
     static const std::vector<cv::Point3d> square = {
         {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0}, {-0.5, -0.5, 0}};
-    std::vector<cv::Point2d> seen;
+    std::vector<cv::Point2d> seen(4);
     cv::Vec3d turn;
     cv::Vec3d place;
 
     for (int i = 0; i < 4; i++)
-        seen.emplace_back(views[i].x / views[i].z, views[i].y / views[i].z);
+        seen[i] = {views[i].x / views[i].z, views[i].y / views[i].z};
     if (!cv::solvePnP(square, seen, cv::Matx33d::eye(), cv::noArray(), turn, place, false,
                       cv::SOLVEPNP_IPPE_SQUARE))
         return 0;

@@ -86,6 +86,10 @@ START_TEST(from_recorded_pairs_to_the_rig)
     record(random);
     check(calibrate({"--log", log_path}), random);
     check(calibrate({"--videos", left_path, right_path}), random);
+    const program_end colour = program_run({"--learn-colour", log_path}, {});
+    ck_assert_msg(colour.code == 0, "%s", colour.logged.c_str());
+    ck_assert_msg(colour.printed.find("ball: {hue: 12") != std::string::npos, "%s",
+                  colour.printed.c_str());
     for (const char *path : {log_path, left_path, right_path})
         unlink(path);
 }
