@@ -8,6 +8,7 @@
 #include "common/program/log.h"
 #include "fixture.h"
 #include "vision/colour/learner.h"
+#include "vision/colour/seeds.h"
 #include "vision/config.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
@@ -171,6 +172,11 @@ START_TEST(white_and_black_are_impossible)
         pointed.point({u + 159.5, v + 119.5});
         show_ball(&pointed, colour, 0, random);
         ck_assert_int_eq(finish(&pointed), -1);
+        const cv::Mat plain(20, 20, CV_8UC3,
+                            cv::Scalar(255 * colour[2], 255 * colour[1], 255 * colour[0]));
+        colour_range range;
+        colour_hsv seen;
+        ck_assert(!seed_at(plain, {10, 10}, &range, &seen)); /* which is why, and is said */
     }
     unlink(path);
 }
