@@ -151,6 +151,7 @@ static std::string logged(const second &what)
     config.rig.vergence = what.vergence;
     observer seer(config, 0, &said);
     ck_assert_ptr_nonnull(freopen(path, "w", stderr));
+    log_open("test_vision_doubts", LOG_LEVEL_WARNING); /* a pipe it had opened for itself */
     for (int i = 0; i < swing_pairs; i++) {
         const picture &left = pairs[what.frozen ? 0 : i + most_late - what.late].left;
         const picture &right = pairs[i + most_late].right;
