@@ -3,6 +3,7 @@
 #define VISION_ARGUMENTS_H
 
 #include "common/options/command_line.h"
+#include "vision/ball/camera.h"
 
 /* Texts point into argv; nullptr where nothing was given. */
 struct arguments {
@@ -12,10 +13,15 @@ struct arguments {
     const char *bench = nullptr;
     const char *draw = nullptr;
     const char *calibrate = nullptr;
+    const char *learn_colour = nullptr;
+    const char *print_tag = nullptr;
+    pixel_point at = {0, 0};
+    bool has_at = false;
     const char *opencv[2] = {nullptr, nullptr};
     int n_opencv = 0;
     const char *cameras[2] = {nullptr, nullptr}; /* left and right */
     const char *videos[2] = {nullptr, nullptr};
+    const char *log = nullptr;
     bool show = false;
     const char *overrides[OPTION_SOURCES_OVERRIDES] = {};
     int n_overrides = 0;

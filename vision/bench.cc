@@ -1,12 +1,11 @@
 #include "vision/bench.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <cstdio>
 
 #include "common/program/log.h"
 #include "vision/answers/show.h"
 #include "vision/answers/statistics.h"
+#include "vision/pictures/image_file.h"
 
 static const int rounds = 500;
 static const int64_t period = 33000; /* us between the stamps */
@@ -23,11 +22,7 @@ static bool load(const char *path, const eyes_config &config, cv::Mat *both)
 {
     const camera &eye = config.rig.left;
 
-    try {
-        *both = cv::imread(path, cv::IMREAD_COLOR);
-    } catch (const cv::Exception &) {
-        both->release();
-    }
+    *both = image_file_read(path);
     if (both->cols == 2 * eye.width && both->rows == eye.height)
         return true;
     log_error("%s is no picture of two eyes side by side, %d x %d pixels each", path, eye.width,
@@ -54,6 +49,15 @@ static void measure(const char *name, eyes_config config, int recheck, const cv:
            times.largest);
 }
 
+static void print_refused(const char *eye, const eye_findings &seen)
+{
+    for (int i = 0; i < seen.n_refused; i++) {
+        const refused_blob &one = seen.refused[i];
+        printf("%s eye, column %.0f row %.0f, radius %.0f px: %s\n", eye, one.pixel.column,
+               one.pixel.row, one.radius, blob_fault_text(one.fault));
+    }
+}
+
 int bench_run(const char *path, const eyes_config &config, const char *drawing)
 {
     cv::Mat both;
@@ -71,17 +75,14 @@ int bench_run(const char *path, const eyes_config &config, const char *drawing)
             printf("%-5s coverage %.2f fill %.2f rms %.2f px score %.2f\n",
                    found == &who.left_blob ? "left" : "right", found->coverage, found->fill,
                    found->cone.rms, found->score);
-    for (int i = 0; i < who.work.n_refused; i++) {
-        const refused_blob &one = who.work.refused[i];
-        printf("%s eye, column %.0f row %.0f, radius %.0f px: %s\n",
-               who.looked_left ? "left" : "right", one.pixel.column, one.pixel.row, one.radius,
-               blob_fault_text(one.fault));
-    }
+    print_refused("left", who.in_left);
+    print_refused("right", who.in_right);
     measure("whole", config, 0, both);
     if (seen)
         measure("window", config, rounds + 1, both);
-    if (!drawing || cv::imwrite(drawing, show_draw(half(both, true), half(both, false), who, seen,
-                                                   seen ? "seen" : "not seen")))
+    if (!drawing ||
+        image_file_write(drawing, show_draw(half(both, true), half(both, false), who, marker.reason,
+                                            stereo_reason_text(marker.reason))))
         return 0;
     log_error("%s cannot be written", drawing);
     return -1;

@@ -42,9 +42,14 @@
         NUMBER(#eye ".roll", eye##_roll, "deg", "0", -45, 45,                                      \
                "turn of the " #eye " camera about its optical axis, clockwise as it looks")
 
+/* px: how wide the picture is that tolerances and windows are written for; they grow with it. */
+static const double usual_width = 640;
+
 static const struct option_row table[] = {
     WHOLE("camera.width", width, "px", "640", 32, 4096, "width of both cameras' pictures"),
     WHOLE("camera.height", height, "px", "480", 32, 4096, "height of both cameras' pictures"),
+    NUMBER("camera.rate", camera_rate, "1/s", "30", 0, 1000,
+           "pictures per second that are asked of cameras (--cameras); 0 = what they have"),
     EYE_ROWS(left),
     EYE_ROWS(right),
     NUMBER("eyes.vergence", vergence, "deg", "10", -60, 60,
@@ -53,6 +58,14 @@ static const struct option_row table[] = {
     NUMBER("eyes.most_apart", most_apart, "s", "0.02", 0, 1,
            "greatest difference between the two pictures' own time stamps, where they have some; "
            "pairs further apart are unusable; 0 = not checked"),
+    {"marker.dictionary", OPTION_CHOICE, AT(tag_dictionary), nullptr, "none", 0, 0,
+     "a printed tag of this dictionary of ArUco's or AprilTag's is the marker, and no ball; none = "
+     "the marker is a ball",
+     TAG_DICTIONARIES},
+    WHOLE("marker.id", tag_id, nullptr, "0", 0, 2400, "number of the tag in its dictionary"),
+    NUMBER("marker.size", tag_size, "m", "0", 0, 1,
+           "side of the tag's black square; a tag of another size is refused; 0 = not known, not "
+           "checked"),
     NUMBER("ball.hue", hue, "deg", "120", 0, 360,
            "middle of the ball's hue: 0 = red, 120 = green, 240 = blue"),
     NUMBER("ball.hue_tolerance", hue_tolerance, "deg", "30", 1, 180,
@@ -79,17 +92,20 @@ static const struct option_row table[] = {
            "where that is more; less where only a part of the outline is seen"),
     NUMBER("check.height", height_tolerance, "px", "3", 0.1, 100,
            "greatest difference between the ball's heights in the two pictures, corrected for "
-           "vergence"),
+           "vergence, in a picture 640 px wide; 2 % of the ball's radius where that is more"),
     NUMBER("check.size", size_tolerance, nullptr, "0.15", 0.01, 1,
            "greatest relative difference between the ball's sizes in the two pictures"),
     NUMBER("check.disparity_min", disparity_min, "px", "-300", -4000, 4000,
-           "smallest disparity that is accepted"),
+           "smallest disparity that is accepted, in a picture 640 px wide"),
     NUMBER("check.disparity_max", disparity_max, "px", "300", -4000, 4000,
-           "largest disparity that is accepted"),
-    NUMBER("track.margin", window_margin, "px", "24", 4, 1000,
-           "distance by which the search window reaches beyond the expected ball"),
+           "largest disparity that is accepted, in a picture 640 px wide"),
+    NUMBER(
+        "track.margin", window_margin, "px", "24", 4, 1000,
+        "distance by which the search window reaches beyond the expected ball, in a picture 640 px "
+        "wide"),
     NUMBER("track.growth", window_growth, "px/s", "300", 0, 10000,
-           "speed at which the search window grows while the ball is not seen"),
+           "speed at which the search window grows while the ball is not seen, in a picture 640 px "
+           "wide"),
     NUMBER("track.memory", memory, "s", "0.5", 0, 2,
            "time without a sighting after which the whole pictures are searched at once"),
     WHOLE("track.window_step", window_step, "px", "3", 1, 8,
@@ -115,6 +131,8 @@ static const char *contradiction(const vision_config &config)
         return "ball.saturation_min must be less than ball.saturation_max";
     if (config.disparity_min >= config.disparity_max)
         return "check.disparity_min must be less than check.disparity_max";
+    if (config.tag_dictionary > 0 && config.tag_id >= tag_count(config.tag_dictionary))
+        return "marker.dictionary has no tag of the number marker.id";
     return nullptr;
 }
 
@@ -136,6 +154,7 @@ void config_print(FILE *out)
 
 eyes_config config_eyes(const vision_config &c)
 {
+    const double scale = c.width / usual_width;
     eyes_config result;
 
     result.colour = {c.hue, c.hue_tolerance, c.saturation_min, c.saturation_max, c.value_min};
@@ -149,12 +168,15 @@ eyes_config config_eyes(const vision_config &c)
                         c.right_pitch,    c.right_roll};
     result.rig.vergence = c.vergence;
     result.rig.baseline = c.baseline;
-    result.rig.ball_radius = c.ball_radius;
-    result.rig.height_tolerance = c.height_tolerance;
+    result.tag = {c.tag_dictionary, c.tag_id};
+    /* What a tag is found as: a ball whose diameter is its side. */
+    result.rig.ball_radius = c.tag_dictionary > 0 ? c.tag_size / 2 : c.ball_radius;
+    result.rig.height_tolerance = scale * c.height_tolerance;
     result.rig.size_tolerance = c.size_tolerance;
-    result.rig.disparity_min = c.disparity_min;
-    result.rig.disparity_max = c.disparity_max;
-    result.window = {c.window_margin, c.window_growth, static_cast<int64_t>(c.memory * 1e6)};
+    result.rig.disparity_min = scale * c.disparity_min;
+    result.rig.disparity_max = scale * c.disparity_max;
+    result.window = {scale * c.window_margin, scale * c.window_growth,
+                     static_cast<int64_t>(c.memory * 1e6)};
     result.window_step = c.window_step;
     result.whole_step = c.whole_step;
     result.most_apart = static_cast<int64_t>(c.most_apart * 1e6);

@@ -15,12 +15,14 @@ struct vision_config {
     double right_focal, right_centre_u, right_centre_v, right_k1, right_k2;
     double right_k3, right_p1, right_p2, right_aspect, right_yaw, right_pitch, right_roll;
     double vergence, baseline, most_apart;
+    int tag_dictionary, tag_id;
+    double tag_size;
     double hue, hue_tolerance, saturation_min, saturation_max, value_min;
     double ball_radius, radius_min, radius_max, coverage_min, fill_min, roughness;
     double height_tolerance, size_tolerance, disparity_min, disparity_max;
     double window_margin, window_growth, memory;
     int window_step, whole_step, recheck;
-    double drop_after, video_rate;
+    double drop_after, video_rate, camera_rate;
 };
 
 /* Reads the table's defaults, then the file (nullptr: none), then the overrides "name=value".

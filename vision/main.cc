@@ -19,13 +19,16 @@
 #include "vision/arguments.h"
 #include "vision/bench.h"
 #include "vision/config.h"
+#include "vision/learning.h"
+#include "vision/pairs.h"
+#include "vision/pictures/image_file.h"
 #include "vision/pictures/receive_buffer.h"
-#include "vision/rig/calibrate.h"
 #include "vision/rig/from_opencv.h"
 #include "vision/rig/rig_file.h"
 
 static const int claim_wait_ms = 300;
 static const int poll_ms = 100;
+static const int tag_side = 1200;              /* px, of a tag to print */
 static const int64_t report_period = 60000000; /* us, in the log */
 static const int64_t tell_period = 1000000;    /* us, to the service manager */
 
@@ -48,17 +51,15 @@ public:
     void show(const image_view &left, const image_view &right, const eyes &who,
               const reach_marker_t &marker) override
     {
-        static const char *const reasons[] = {
-            "seen",         "not in the right image", "not in the left image", "heights differ",
-            "sizes differ", "disparity out of range", "images unusable"};
         char caption[160];
 
         if (!show_)
             return;
         snprintf(caption, sizeof caption, "%s  u %.1f  v %.1f  disparity %.1f  radius %.1f px",
-                 reasons[marker.reason], marker.u_right, marker.v_right, marker.disparity,
-                 marker.radius);
-        if (show_window(show_draw(left, right, who, marker.seen, caption)))
+                 stereo_reason_text(static_cast<stereo_reason>(marker.reason)), marker.u_right,
+                 marker.v_right, marker.disparity, marker.radius);
+        if (show_window(
+                show_draw(left, right, who, static_cast<stereo_reason>(marker.reason), caption)))
             return;
         log_warning("the display refuses the window; going on without it");
         show_ = false;
@@ -82,26 +83,6 @@ static void catch_signals()
     action.sa_handler = ask_stop;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-}
-
-static std::unique_ptr<source> open_source(const arguments &given, const vision_config &config,
-                                           lcm_t *lcm, pair_receiver *receiver)
-{
-    const camera eye = config_eyes(config).rig.left;
-    std::unique_ptr<source> pairs;
-    char error[512] = "";
-
-    if (given.cameras[0])
-        pairs =
-            source_cameras(given.cameras[0], given.cameras[1], eye, receiver, error, sizeof error);
-    else if (given.videos[0])
-        pairs = source_videos(given.videos[0], given.videos[1], config.video_rate, receiver, error,
-                              sizeof error);
-    else
-        pairs = source_bus(lcm, "STEREO_IMAGES", receiver, error, sizeof error);
-    if (!pairs)
-        log_error("%s", error);
-    return pairs;
 }
 
 static void report(const statistics &counts)
@@ -180,40 +161,35 @@ static int write_stats(const char *path, const statistics &counts)
     return 1;
 }
 
+/* Whether recorded pairs were of no use, which is then said. */
+static bool in_vain(const arguments &given, const statistics &counts)
+{
+    if (given.log && counts.pairs + counts.malformed == 0)
+        log_error("%s: no pairs of pictures (channel STEREO_IMAGES) are in it", given.log);
+    else if ((given.videos[0] || given.log) && statistics_nothing_usable(counts))
+        log_error("not one pair could be used: see the warnings above");
+    else
+        return false;
+    return true;
+}
+
 static int see(const arguments &given, const vision_config &config, lcm_t *lcm)
 {
     bus_publisher publisher(lcm, given.show);
     observer seer(config_eyes(config), static_cast<int64_t>(config.drop_after * 1e6), &publisher);
-    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &seer);
+    const std::unique_ptr<source> pairs = pairs_open(given, config, lcm, &seer);
 
     if (!pairs)
         return 1;
     log_info("ready");
     notify_send("READY=1");
-    int code = serve(pairs.get(), lcm, given.cameras[0] || given.videos[0], seer.counts());
+    int code = serve(pairs.get(), lcm, !pairs_on_bus(given), seer.counts());
     report(seer.counts());
-    if (given.videos[0] && statistics_nothing_usable(seer.counts())) {
-        log_error("not one pair of frames could be used: see the warnings above");
+    if (in_vain(given, seer.counts()))
         code = 1;
-    }
     if (given.stats && write_stats(given.stats, seer.counts()))
         code = 1;
     return code;
-}
-
-/* Until the ball was moved long enough, the pairs end, or a signal comes. */
-static int calibrate(const arguments &given, const vision_config &config, lcm_t *lcm)
-{
-    rig_calibrator learner(config_eyes(config));
-    const std::unique_ptr<source> pairs = open_source(given, config, lcm, &learner);
-    source_state state = SOURCE_OPEN;
-
-    if (!pairs)
-        return 1;
-    log_info("move the ball slowly through both eyes' pictures, near and far, for 30 s");
-    while (!stop_asked && state == SOURCE_OPEN && !learner.done())
-        state = pairs->poll(poll_ms);
-    return learner.finish(given.calibrate, given.draw) ? 1 : 0;
 }
 
 static int print_from_opencv(const arguments &given, const vision_config &config)
@@ -227,6 +203,19 @@ static int print_from_opencv(const arguments &given, const vision_config &config
     }
     rig_write(rig, "from OpenCV's stereo calibration", stdout);
     return 0;
+}
+
+static int print_tag(const arguments &given, const vision_config &config)
+{
+    if (config.tag_dictionary == 0) {
+        log_error("--print-tag: no tag is configured; set marker.dictionary and marker.id");
+        return 1;
+    }
+    if (image_file_write(given.print_tag,
+                         tag_picture({config.tag_dictionary, config.tag_id}, tag_side)))
+        return 0;
+    log_error("%s cannot be written", given.print_tag);
+    return 1;
 }
 
 static int run_on_bus(const arguments &given, const vision_config &config)
@@ -246,7 +235,7 @@ static int run_on_bus(const arguments &given, const vision_config &config)
     else if (taken < 0)
         log_error("LCM failed while asking for other vision processes");
     else
-        code = given.calibrate ? calibrate(given, config, lcm) : see(given, config, lcm);
+        code = see(given, config, lcm);
     lcm_destroy(lcm);
     bus_claim_free(claim);
     return code;
@@ -272,17 +261,24 @@ int main(int argc, char **argv)
     cv::setNumThreads(1); /* one core is the budget, and one order of arithmetic */
     if (given.n_opencv > 0)
         return print_from_opencv(given, config);
+    if (given.print_tag)
+        return print_tag(given, config);
     if (given.bench)
         return bench_run(given.bench, config_eyes(config), given.draw) ? 1 : 0;
     if (given.show && !show_possible()) {
         log_error("--show: no display (DISPLAY and WAYLAND_DISPLAY are not set)");
         return 1;
     }
-    if (config.ball_radius <= 0)
-        log_warning(
-            "ball.radius is not set: a thing of the ball's colour but of another size can be "
-            "taken for it; set the true radius in metres");
     catch_signals();
+    if (learning_asked(given))
+        return learning_run(given, config, &stop_asked);
+    if (config_eyes(config).rig.ball_radius <= 0)
+        log_warning(
+            config.tag_dictionary > 0
+                ? "marker.size is not set: a tag of the same number but of another size can "
+                  "be taken for it; set the side of its black square in metres"
+                : "ball.radius is not set: a thing of the ball's colour but of another size "
+                  "can be taken for it; set the true radius in metres");
     receive_buffer_check(static_cast<size_t>(config.width) * static_cast<size_t>(config.height) *
                          6);
     return run_on_bus(given, config);

@@ -64,6 +64,16 @@ class Screen:
             xtst.XTestFakeKeyEvent(display, code, pressed, ctypes.c_ulong(0))
         x11.XCloseDisplay(display)
 
+    def click(self, column: int, row: int) -> None:
+        """The pointer goes there, and its left button is pressed and let go."""
+        x11, xtst = ctypes.CDLL("libX11.so.6"), ctypes.CDLL("libXtst.so.6")
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.display.encode()))
+        xtst.XTestFakeMotionEvent(display, -1, column, row, ctypes.c_ulong(0))
+        for pressed in (True, False):
+            xtst.XTestFakeButtonEvent(display, 1, pressed, ctypes.c_ulong(50))
+        x11.XCloseDisplay(display)
+
     def picture(self) -> np.ndarray:
         """What is shown now, as height x width x RGB. Xvfb keeps it in a file in XWD format."""
         with (Path(self._folder.name) / "Xvfb_screen0").open("rb") as file:

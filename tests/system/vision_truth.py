@@ -2,6 +2,9 @@
 
 Stands in for the daemon: answers every state, waves the arm through the babbled range and turns the
 head after the ball. Prints what it measured as JSON; fails when vision is worse than it promises.
+
+The eyes' mounts stand still here: the truth is that of eyes that do not tremble, so that with
+--mounts their tremble (0.31 px rms) and creep are measured, not vision.
 """
 
 import argparse
@@ -32,6 +35,8 @@ FOCAL = 1200.0  # px
 WRONG_PX = 10.0
 VISIBLE = 0.999  # share of the disc: the ball stands free
 SILENCE_SECONDS = 30.0
+MOST_STD_PX = 0.1
+STILL = ["eyes.tremble=0", "eyes.creep=0"]
 
 
 class Waver:
@@ -209,7 +214,7 @@ def start(arguments, bench_vision: list):
     ]  # fmt: skip
     eyes = SOURCE / "etc/vision-kobian.yaml"
     vision = [BUILD / "bin/reach-vision", "--config", eyes, "--url", URL]
-    for setting in arguments.sim:
+    for setting in ([] if arguments.mounts else STILL) + arguments.sim:
         simulator += ["--set", setting]
     processes = [subprocess.Popen([str(w) for w in vision + bench_vision])]
     time.sleep(0.7)  # vision first asks whether it is alone
@@ -217,7 +222,7 @@ def start(arguments, bench_vision: list):
     return processes
 
 
-def demand(result: dict):
+def demand(result: dict, mounts: bool):
     """The promises of docs/vision.md."""
     complaints = []
     if result["wrong"] > 0.001 * result["frames"]:
@@ -227,8 +232,8 @@ def demand(result: dict):
     if result["free"] < 0.3 * result["frames"]:
         complaints.append("the ball was hardly ever in view")
     for name, value in result["std_px"].items():
-        if value > 0.5:
-            complaints.append(f"the error in {name} is above 0.5 px")
+        if value > MOST_STD_PX and not mounts:
+            complaints.append(f"the error in {name} is above {MOST_STD_PX} px")
     return complaints
 
 
@@ -236,6 +241,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=10, help="simulated time of each part")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--mounts", action="store_true", help="the eyes' mounts tremble and creep")
     parser.add_argument("--sim", action="append", default=[], help="NAME=VALUE for simrobot")
     parser.add_argument("--vision", action="append", default=[], help="NAME=VALUE for vision")
     arguments = parser.parse_args()
@@ -257,7 +263,7 @@ def main():
     result = judge(bench)
     result["real_time_factor"] = round(bench.utime / 1e6 / (time.monotonic() - began), 2)
     print(json.dumps(result, indent=1))
-    complaints = demand(result)
+    complaints = demand(result, arguments.mounts)
     for complaint in complaints:
         print(f"vision_truth: {complaint}", file=sys.stderr)
     sys.exit(1 if complaints else 0)

@@ -9,7 +9,8 @@ static const int64_t live_within = 10000000;     /* us */
 static const int64_t complaint_period = 1000000; /* us */
 
 observer::observer(const eyes_config &config, int64_t drop_after_us, marker_receiver *receiver)
-    : receiver_(receiver), drop_after_us_(drop_after_us)
+    : left_(config.tag.dictionary > 0), right_(config.tag.dictionary > 0), receiver_(receiver),
+      drop_after_us_(drop_after_us)
 {
     eyes_init(&eyes_, config);
 }
@@ -63,15 +64,18 @@ bool observer::decode(const image_message &images, image_view *left, image_view 
     return !wrong;
 }
 
-/* Of the eye that was looked at last, which is the one that did not see it. */
+/* Of the eye that did not see it. */
 void observer::count_unseen(const stereo_marker &found)
 {
     if (found.reason != STEREO_NOT_IN_RIGHT && found.reason != STEREO_NOT_IN_LEFT)
         return;
-    if (eyes_.work.n_refused == 0)
+    const eye_findings &seen = found.reason == STEREO_NOT_IN_RIGHT ? eyes_.in_right : eyes_.in_left;
+    if (seen.n_refused == 0 && eyes_.tags.dictionary)
+        counts_.faults[BLOB_NO_TAG]++;
+    else if (seen.n_refused == 0)
         counts_.no_colour++;
     else
-        counts_.faults[eyes_.work.refused[0].fault]++;
+        counts_.faults[seen.refused[0].fault]++;
 }
 
 void observer::look(const image_message &images, reach_marker_t *marker)
@@ -89,7 +93,9 @@ void observer::look(const image_message &images, reach_marker_t *marker)
     time_histogram_add(&counts_.look, marker->compute_us);
     counts_.windows += eyes_.used_window;
     count_unseen(found);
-    const char *const doubt = doubts_add(&doubts_, images, found);
+    const bool grey =
+        found.reason == STEREO_NOT_IN_RIGHT && !eyes_.tags.dictionary && doubts_colourless(right);
+    const char *const doubt = doubts_add(&doubts_, images, found, grey);
     if (doubt)
         complain("in doubt", doubt);
     marker->seen = found.reason == STEREO_SEEN;

@@ -6,14 +6,20 @@
 
 #include "vision/ball/eyes.h"
 
-/* Left and right picture side by side, the outlines drawn in, BGR. */
-cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who, bool seen,
-                  const char *caption);
+/* Left and right picture side by side, BGR. What was taken is drawn in, and every candidate that
+ * was not, with the reason: why it is no ball, or why the eyes' findings (`reason`) are no pair. */
+cv::Mat show_draw(const image_view &left, const image_view &right, const eyes &who,
+                  stereo_reason reason, const char *caption);
 
 /* Whether a display can be reached at all. */
 bool show_possible();
 
 /* Shows a picture and serves the window's events. Returns false when the display refuses. */
 bool show_window(const cv::Mat &picture);
+
+/* Calls back for each click of the left button with the pixel's column and row, from within
+ * show_window. */
+typedef void show_click_fn(int column, int row, void *user);
+void show_on_click(show_click_fn *click, void *user);
 
 #endif

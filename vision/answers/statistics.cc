@@ -4,8 +4,6 @@
 #include <cstring>
 #include <ctime>
 
-#include "vision/ball/stereo.h"
-
 static const size_t longest = 20000; /* us */
 
 time_histogram::time_histogram() : count(longest + 1) {}
@@ -42,7 +40,7 @@ void statistics_line(const statistics &counts, char *line, size_t size)
              " repeated, %" PRId64 " dropped, %" PRId64 " unusable, %" PRId64
              " malformed; looking took %.0f us at the median, %.0f at 99.9 %%, %.0f at most",
              counts.pairs, counts.reasons[0], counts.windows, counts.repeated, counts.dropped,
-             counts.reasons[STATISTICS_REASONS - 1], counts.malformed,
+             counts.reasons[STEREO_UNUSABLE], counts.malformed,
              time_histogram_quantile(counts.look, 0.5), time_histogram_quantile(counts.look, 0.999),
              counts.look.largest);
 }
@@ -57,21 +55,12 @@ static void append(char *line, size_t size, const char *what, int64_t n)
 
 void statistics_unseen(const statistics &counts, char *line, size_t size)
 {
-    static const char *const reasons[STATISTICS_REASONS] = {
-        "",
-        "",
-        "",
-        "heights differ (check.height)",
-        "sizes differ (check.size, ball.radius)",
-        "disparity out of range",
-        "images unusable"};
-
     line[0] = 0;
     append(line, size, "nothing of the ball's colour", counts.no_colour);
     for (int i = 1; i < BLOB_FAULTS; i++)
         append(line, size, blob_fault_text(static_cast<blob_fault>(i)), counts.faults[i]);
-    for (int i = STEREO_HEIGHTS_DIFFER; i < STATISTICS_REASONS; i++)
-        append(line, size, reasons[i], counts.reasons[i]);
+    for (int i = STEREO_HEIGHTS_DIFFER; i < STEREO_REASONS; i++)
+        append(line, size, stereo_reason_text(static_cast<stereo_reason>(i)), counts.reasons[i]);
 }
 
 bool statistics_nothing_usable(const statistics &counts)
@@ -92,7 +81,7 @@ void statistics_json(const statistics &counts, FILE *out)
             "{\"pairs\": %" PRId64 ", \"windows\": %" PRId64 ", \"repeated\": %" PRId64
             ", \"dropped\": %" PRId64 ", \"malformed\": %" PRId64 ", \"reasons\": [",
             counts.pairs, counts.windows, counts.repeated, counts.dropped, counts.malformed);
-    for (int i = 0; i < STATISTICS_REASONS; i++)
+    for (int i = 0; i < STEREO_REASONS; i++)
         fprintf(out, "%s%" PRId64, i ? ", " : "", counts.reasons[i]);
     fprintf(out, "], ");
     times_json("look_us", counts.look, out);

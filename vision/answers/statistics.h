@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "vision/ball/segment.h"
-
-enum { STATISTICS_REASONS = 7 }; /* values of marker_t.reason */
+#include "vision/ball/stereo.h"
 
 /* How often each whole microsecond was met; what is longer than the table goes into its end. */
 struct time_histogram {
@@ -23,9 +22,9 @@ void time_histogram_add(time_histogram *times, double us);
 double time_histogram_quantile(const time_histogram &times, double share);
 
 struct statistics {
-    int64_t pairs = 0;                         /* looked at */
-    int64_t reasons[STATISTICS_REASONS] = {0}; /* what was said of them, marker_t.reason */
-    int64_t no_colour = 0;             /* not seen in an eye: nothing had the ball's colour */
+    int64_t pairs = 0;                     /* looked at */
+    int64_t reasons[STEREO_REASONS] = {0}; /* what was said of them, marker_t.reason */
+    int64_t no_colour = 0;                 /* not seen in an eye: nothing had the ball's colour */
     int64_t faults[BLOB_FAULTS] = {0}; /* not seen in an eye: why the largest thing was refused */
     int64_t windows = 0;               /* settled without the whole pictures */
     int64_t repeated = 0;              /* asked again, answered from memory */

@@ -1,5 +1,7 @@
 #include "vision/ball/eyes.h"
 
+#include <algorithm>
+
 static const int64_t set_back = 1000000; /* us */
 
 void eyes_init(eyes *who, const eyes_config &config)
@@ -9,26 +11,40 @@ void eyes_init(eyes *who, const eyes_config &config)
     who->work.range = config.colour;
     who->work.colours = colour_table_create(config.colour);
     who->work.limits = config.limits;
+    who->tags = tag_finder_create(config.tag);
+}
+
+static void look_with(eyes *who, const image_view &image, const camera &eye,
+                      const image_region &part, int step, eye_findings *seen)
+{
+    if (who->tags.dictionary) {
+        seen->n_found =
+            tag_find(&who->tags, image, eye, part, seen->found, seen->refused, &seen->n_refused);
+        return;
+    }
+    seen->n_found = segment_find(&who->work, image, eye, part, step, seen->found);
+    seen->n_refused = who->work.n_refused;
+    std::copy(who->work.refused, who->work.refused + seen->n_refused, seen->refused);
 }
 
 static stereo_marker look_in(eyes *who, const image_view &left, const image_region &left_part,
                              const image_view &right, const image_region &right_part, int step)
 {
     const stereo_rig &rig = who->config.rig;
-    blob in_left[SEGMENT_CANDIDATES];
-    blob in_right[SEGMENT_CANDIDATES];
-    int n_left = 0;
+    eye_findings &in_left = who->in_left;
+    eye_findings &in_right = who->in_right;
     int i = 0;
     int j = 0;
 
-    const int n_right = segment_find(&who->work, right, rig.right, right_part, step, in_right);
-    who->looked_left = n_right > 0;
-    if (n_right > 0)
-        n_left = segment_find(&who->work, left, rig.left, left_part, step, in_left);
-    const stereo_marker marker = stereo_match(rig, in_left, n_left, in_right, n_right, &i, &j);
+    look_with(who, right, rig.right, right_part, step, &in_right);
+    in_left.n_found = in_left.n_refused = 0;
+    if (in_right.n_found > 0)
+        look_with(who, left, rig.left, left_part, step, &in_left);
+    const stereo_marker marker =
+        stereo_match(rig, in_left.found, in_left.n_found, in_right.found, in_right.n_found, &i, &j);
     if (marker.reason == STEREO_SEEN) {
-        who->left_blob = in_left[i];
-        who->right_blob = in_right[j];
+        who->left_blob = in_left.found[i];
+        who->right_blob = in_right.found[j];
     }
     return marker;
 }

@@ -8,10 +8,12 @@
 
 #include "vision/ball/segment.h"
 #include "vision/ball/stereo.h"
+#include "vision/ball/tag.h"
 #include "vision/ball/track.h"
 
 struct eyes_config {
     colour_range colour;
+    tag_config tag; /* sought instead of the ball where it has a dictionary */
     segment_limits limits;
     stereo_rig rig;
     track_window window;
@@ -21,16 +23,26 @@ struct eyes_config {
     int recheck;        /* after this many pairs in windows the whole pictures are looked at once */
 };
 
+/* What an eye saw at the newest look. Nothing of the left one when the right saw no ball. */
+struct eye_findings {
+    blob found[SEGMENT_CANDIDATES]; /* the most ball-like first */
+    int n_found;
+    refused_blob refused[SEGMENT_REFUSED]; /* the largest first */
+    int n_refused;
+};
+
 struct eyes {
     eyes_config config;
     segmenter work;
+    tag_finder tags;
     track left;
     track right;
     int64_t newest;   /* newest stamp so far, 0 = none; us */
     int in_windows;   /* pairs since whole pictures were looked at */
-    bool looked_left; /* the eye that was looked at last, to which work.refused belongs */
     bool used_window; /* the newest look was settled in windows */
-    blob left_blob;   /* what the newest marker was made of, where it was seen */
+    eye_findings in_left;
+    eye_findings in_right;
+    blob left_blob; /* what the newest marker was made of, where it was seen */
     blob right_blob;
 };
 

@@ -207,7 +207,9 @@ const char *blob_fault_text(blob_fault fault)
                                                    "too little outline (ball.coverage_min)",
                                                    "too little colour (ball.fill_min)",
                                                    "edge too rough (ball.roughness)",
-                                                   "colour goes on beyond it"};
+                                                   "colour goes on beyond it",
+                                                   "no tag of marker.dictionary",
+                                                   "a tag of another number (marker.id)"};
 
     return texts[fault];
 }

@@ -27,7 +27,9 @@ enum blob_fault {
     BLOB_COVERAGE, /* too little of the outline is seen */
     BLOB_FILL,     /* too little of the disc has the colour */
     BLOB_ROUGH,
-    BLOB_LEAKS, /* its colour goes on beyond the outline */
+    BLOB_LEAKS,     /* its colour goes on beyond the outline */
+    BLOB_NO_TAG,    /* where a tag is sought: there is none */
+    BLOB_OTHER_TAG, /* it has another number */
     BLOB_FAULTS,
 };
 

@@ -3,6 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+static const double height_share = 0.02; /* of the ball's radius */
+
+const char *stereo_reason_text(stereo_reason reason)
+{
+    static const char *const texts[STEREO_REASONS] = {
+        "seen",
+        "not in the right image",
+        "not in the left image",
+        "heights differ (check.height)",
+        "sizes differ (check.size, ball.radius)",
+        "disparity out of range (check.disparity_min, check.disparity_max)",
+        "images unusable"};
+
+    return texts[reason];
+}
+
 /* A line of sight in the frame between the eyes: slopes to the right and down. */
 struct slopes {
     double across;
@@ -54,6 +70,36 @@ static sights sights_of(const stereo_rig &rig, const blob &left, const blob &rig
     return {camera_upright(rig.left, left.cone.axis), camera_upright(rig.right, right.cone.axis)};
 }
 
+/* Two findings in the frame between the eyes. */
+struct views {
+    sights seen;
+    slopes from_left;
+    slopes from_right;
+    double closing; /* baseline / depth */
+    double left_size;
+    double right_size;
+};
+
+static views views_of(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    const sights seen = sights_of(rig, left, right);
+    const slopes from_left = turned(seen.left, rig.vergence / 2);
+    const slopes from_right = turned(seen.right, -rig.vergence / 2);
+
+    return {seen,
+            from_left,
+            from_right,
+            from_left.across - from_right.across,
+            relative_size(left, from_left),
+            relative_size(right, from_right)};
+}
+
+/* The ball's true radius, where the lines of sight meet ahead; m. */
+static double true_radius(const stereo_rig &rig, const views &both)
+{
+    return (both.left_size + both.right_size) / 2 * rig.baseline / both.closing;
+}
+
 double stereo_height(const stereo_rig &rig, const direction &left, const direction &right)
 {
     const slopes from_left = turned(camera_upright(rig.left, left), rig.vergence / 2);
@@ -62,39 +108,44 @@ double stereo_height(const stereo_rig &rig, const direction &left, const directi
     return (from_right.down - from_left.down) * rig.right.focal;
 }
 
+/* A large ball is located less well, in pixels: it is seen less sharp, and less round. */
+static double height_limit(const stereo_rig &rig, const blob &left, const blob &right)
+{
+    return std::max(rig.height_tolerance, height_share * rig.right.focal *
+                                              std::max(left.cone.tangent, right.cone.tangent));
+}
+
 stereo_reason stereo_check(const stereo_rig &rig, const blob &left, const blob &right)
 {
-    const sights seen = sights_of(rig, left, right);
-    const slopes from_left = turned(seen.left, rig.vergence / 2);
-    const slopes from_right = turned(seen.right, -rig.vergence / 2);
-    const double closing = from_left.across - from_right.across; /* baseline / depth */
-    const double left_size = relative_size(left, from_left);
-    const double right_size = relative_size(right, from_right);
-    const double disparity = pinhole_u(rig.left, seen.left) - pinhole_u(rig.right, seen.right);
+    const views both = views_of(rig, left, right);
+    const double height = both.from_left.down - both.from_right.down;
+    const double disparity =
+        pinhole_u(rig.left, both.seen.left) - pinhole_u(rig.right, both.seen.right);
 
-    if (!(std::fabs(from_left.down - from_right.down) * rig.right.focal <= rig.height_tolerance))
+    if (!(std::fabs(height) * rig.right.focal <= height_limit(rig, left, right)))
         return STEREO_HEIGHTS_DIFFER;
-    if (differ(left_size, right_size, rig.size_tolerance))
+    if (differ(both.left_size, both.right_size, rig.size_tolerance))
         return STEREO_SIZES_DIFFER;
     if (!(disparity >= rig.disparity_min && disparity <= rig.disparity_max))
         return STEREO_DISPARITY_RANGE;
     if (rig.ball_radius > 0) {
-        if (!(closing > 0))
+        if (!(both.closing > 0))
             return STEREO_DISPARITY_RANGE;
-        const double depth = rig.baseline / closing;
-        if (differ((left_size + right_size) / 2 * depth, rig.ball_radius, rig.size_tolerance))
+        if (differ(true_radius(rig, both), rig.ball_radius, rig.size_tolerance))
             return STEREO_SIZES_DIFFER;
     }
     return STEREO_SEEN;
 }
 
-/* Whether the lines of sight meet behind the eyes. */
-static bool meet_behind(const stereo_rig &rig, const blob &left, const blob &right)
+/* What two findings would mean if they were one ball. */
+static void interpret(const stereo_rig &rig, const blob &left, const blob &right,
+                      stereo_marker *marker)
 {
-    const sights seen = sights_of(rig, left, right);
+    const views both = views_of(rig, left, right);
 
-    return turned(seen.left, rig.vergence / 2).across <
-           turned(seen.right, -rig.vergence / 2).across;
+    marker->meets_behind = both.closing < 0;
+    if (both.closing > 0)
+        marker->true_radius = true_radius(rig, both);
 }
 
 static stereo_marker marker_of(const stereo_rig &rig, const blob &left, const blob &right)
@@ -129,7 +180,7 @@ stereo_marker stereo_match(const stereo_rig &rig, const blob *left, int n_left, 
             best = score;
             marker = seen ? marker_of(rig, left[i], right[j]) : stereo_marker();
             marker.reason = reason;
-            marker.meets_behind = meet_behind(rig, left[i], right[j]);
+            interpret(rig, left[i], right[j], &marker);
             if (!seen)
                 continue;
             *left_index = i;

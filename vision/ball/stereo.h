@@ -16,7 +16,7 @@ struct stereo_rig {
     double vergence;         /* angle between the optical axes, 0 = parallel; rad */
     double baseline;         /* m; only used where ball_radius is */
     double ball_radius;      /* m; 0 = unknown */
-    double height_tolerance; /* px, after the vergence is taken out */
+    double height_tolerance; /* px, after the vergence is taken out; 2 % of the radius if more */
     double size_tolerance;   /* relative, between the eyes and to ball_radius */
     double disparity_min;    /* px */
     double disparity_max;    /* px */
@@ -31,7 +31,11 @@ enum stereo_reason {
     STEREO_SIZES_DIFFER = 4,
     STEREO_DISPARITY_RANGE = 5,
     STEREO_UNUSABLE = 6,
+    STEREO_REASONS,
 };
+
+/* What a person is told of it: "heights differ (check.height)". */
+const char *stereo_reason_text(stereo_reason reason);
 
 /* What is said of a pair. All zero unless `reason` is STEREO_SEEN. */
 struct stereo_marker {
@@ -43,6 +47,9 @@ struct stereo_marker {
     /* The lines of sight to what was found in both eyes, also where it was refused, part ahead and
      * meet behind: as if the eyes were swapped. */
     bool meets_behind = false;
+    /* The ball's true radius as both eyes make it out, if eyes.baseline is right; m. Likewise also
+     * where it was refused; 0 where they do not meet ahead. */
+    double true_radius = 0;
 };
 
 /* How much higher the left eye sees a thing than the right, where both directions (the cameras' own

@@ -13,6 +13,9 @@
 class decoder
 {
 public:
+    /* `grey_too`: pictures without colours are taken as well, for what needs none. */
+    explicit decoder(bool grey_too = false) : grey_too_(grey_too) {}
+
     /* RGB and BGR are not copied: `view` then points into the message. A picture must have the
      * size that the camera is configured for, which bounds what a hostile JPEG can ask for.
      *   returns nullptr, or why the picture is unusable; the text lives as long as the picture. */
@@ -21,8 +24,12 @@ public:
 private:
     const char *convert(const encoded_image &from, int to_bgr, int rows);
 
+    const char *decompress(const encoded_image &from);
+    const char *complain_of_grey(const encoded_image &from);
+
+    bool grey_too_;
     std::vector<uint8_t> pixels_;
-    char wrong_[192] = "";
+    char wrong_[256] = "";
 };
 
 #endif

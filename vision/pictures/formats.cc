@@ -62,8 +62,6 @@ void format_complain(int32_t number, char *text, size_t size)
     for (const auto &one : others)
         if (one.number == number)
             name = one.name;
-    snprintf(text, size,
-             "an image's pixelformat %d (%s) is not taken; send MJPEG, RGB, BGR, RGBA, BGRA, YUYV, "
-             "UYVY, NV12, I420 or 8-bit BAYER",
+    snprintf(text, size, "an image's pixelformat %d (%s) is not taken; send " FORMATS_TAKEN,
              static_cast<int>(number), name);
 }

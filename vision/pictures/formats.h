@@ -37,6 +37,9 @@ enum { FORMAT_AS_IT_IS = -1, FORMAT_COMPRESSED = -2, FORMAT_GREY = -3 };
 /* The row of a number, or nullptr. */
 const format *format_of(int32_t number);
 
+/* What can be sent, for complaints. */
+#define FORMATS_TAKEN "MJPEG, RGB, BGR, RGBA, BGRA, YUYV, UYVY, NV12, I420 or 8-bit BAYER"
+
 /* "PIXELFORMAT is not taken ..." with the number, its name if it is a known one, and what is taken.
  */
 void format_complain(int32_t number, char *text, size_t size);

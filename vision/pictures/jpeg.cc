@@ -61,18 +61,18 @@ static void prepare(jpeg_reader *reader)
 
 /* Returns what is wrong, or nullptr. */
 static const char *read_header(jpeg_reader *reader, const uint8_t *data, size_t size, int width,
-                               int height)
+                               int height, jpeg_header *found)
 {
     jpeg_decompress_struct &codec = reader->codec;
 
     jpeg_mem_src(&codec, data, size);
     if (jpeg_read_header(&codec, TRUE) != JPEG_HEADER_OK)
         return "its JPEG header is damaged";
+    *found = {static_cast<int>(codec.image_width), static_cast<int>(codec.image_height),
+              codec.jpeg_color_space == JCS_GRAYSCALE};
     if (codec.image_width != static_cast<JDIMENSION>(width) ||
         codec.image_height != static_cast<JDIMENSION>(height))
         return "its JPEG header names another size than its message";
-    if (codec.jpeg_color_space == JCS_GRAYSCALE)
-        return "it is grey: a ball is found by its colour";
     return nullptr;
 }
 
@@ -89,14 +89,16 @@ static void read_rows(jpeg_reader *reader, uint8_t *rgb)
     jpeg_finish_decompress(&codec);
 }
 
-const char *jpeg_decode(const uint8_t *data, size_t size, int width, int height, uint8_t *rgb)
+const char *jpeg_decode(const uint8_t *data, size_t size, int width, int height, uint8_t *rgb,
+                        jpeg_header *found)
 {
     jpeg_reader reader = {};
     const char *volatile wrong = "its JPEG header is damaged";
 
+    *found = {0, 0, false};
     if (setjmp(reader.failed) == 0) { /* no object with a destructor lives beyond this line */
         prepare(&reader);
-        wrong = read_header(&reader, data, size, width, height);
+        wrong = read_header(&reader, data, size, width, height, found);
         if (!wrong) {
             wrong = damaged;
             read_rows(&reader, rgb);

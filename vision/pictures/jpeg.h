@@ -9,7 +9,14 @@
  * Nothing is decoded whose header names another size. A frame without Huffman tables has the
  * standard ones, as Motion JPEG allows. What libjpeg mends without loss is taken: bytes that belong
  * to nothing, a missing end marker. A picture of which a part is missing is refused.
- *   returns nullptr, or what is wrong with it (a constant text). */
-const char *jpeg_decode(const uint8_t *data, size_t size, int width, int height, uint8_t *rgb);
+ *   returns nullptr, or what is wrong with it (a constant text). *found is what its header says,
+ *   all 0 where that could not be read. */
+struct jpeg_header {
+    int width;
+    int height;
+    bool grey; /* it has no colours; `rgb` is three times the same */
+};
+const char *jpeg_decode(const uint8_t *data, size_t size, int width, int height, uint8_t *rgb,
+                        jpeg_header *found);
 
 #endif

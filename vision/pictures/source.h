@@ -1,4 +1,4 @@
-/* Where pairs of pictures come from: the bus, two cameras, or two video files. */
+/* Where pairs of pictures come from: the bus, a log of it, two cameras, or two video files. */
 #ifndef VISION_PICTURES_SOURCE_H
 #define VISION_PICTURES_SOURCE_H
 
@@ -41,10 +41,19 @@ public:
 std::unique_ptr<source> source_bus(lcm_t *lcm, const char *channel, pair_receiver *receiver,
                                    char *error, size_t error_size);
 
-/* Two V4L2 devices ("/dev/video0"), stamped when the pair was grabbed, epoch us. `width` and
- * `height` are asked of both. */
+/* The same from a log of lcm-logger's, as fast as pairs are seen; ends with it. */
+std::unique_ptr<source> source_log(const char *path, const char *channel, pair_receiver *receiver,
+                                   char *error, size_t error_size);
+
+/* Two V4L2 devices ("/dev/video0"), stamped when the pair was grabbed, epoch us. Motion JPEG, the
+ * eye's size and `rate` pictures a second (0: not) are asked of both; what they give is logged. */
 std::unique_ptr<source> source_cameras(const char *left, const char *right, const camera &eye,
-                                       pair_receiver *receiver, char *error, size_t error_size);
+                                       double rate, pair_receiver *receiver, char *error,
+                                       size_t error_size);
+
+/* One camera ("/dev/..."), one picture or one video file in place of both eyes. */
+std::unique_ptr<source> source_one(const char *name, const camera &eye, double rate,
+                                   pair_receiver *receiver, char *error, size_t error_size);
 
 /* Two video files of the same length, stamped from 1 s on by their frame rate. Read at `rate`
  * pairs a second, 0 = as fast as they are seen. */

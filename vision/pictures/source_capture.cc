@@ -7,6 +7,8 @@
 
 #include "common/bus/open.h"
 #include "common/program/log.h"
+#include "vision/pictures/camera_setup.h"
+#include "vision/pictures/image_file.h"
 #include "vision/pictures/source.h"
 
 static const double default_rate = 30; /* frames/s, for files that do not say */
@@ -27,7 +29,8 @@ bool to_encoded(const cv::Mat &frame, encoded_image *image)
     return true;
 }
 
-/* Two captures that are read side by side; what differs is the stamp and the pace. */
+/* Two captures that are read side by side, or one for both eyes; what differs is the stamp and the
+ * pace. */
 class capture_source : public source
 {
 public:
@@ -36,14 +39,14 @@ public:
     bool open(const char *left, const char *right, int backend, char *error, size_t error_size)
     {
         return open_one(&left_, left, backend, error, error_size) &&
-               open_one(&right_, right, backend, error, error_size);
+               (!right || open_one(&right_, right, backend, error, error_size));
     }
 
 protected:
     bool grab()
     {
         const bool left = left_.grab();
-        const bool right = right_.grab();
+        const bool right = !right_.isOpened() || right_.grab();
         return left && right;
     }
 
@@ -53,9 +56,9 @@ protected:
 
         pair.images.utime = utime;
         pair.waited = 0;
-        if (left_.retrieve(left_frame_) && right_.retrieve(right_frame_) &&
-            to_encoded(left_frame_, &pair.images.left) &&
-            to_encoded(right_frame_, &pair.images.right))
+        const cv::Mat &other = right_.isOpened() ? right_frame_ : left_frame_;
+        if (left_.retrieve(left_frame_) && (!right_.isOpened() || right_.retrieve(right_frame_)) &&
+            to_encoded(left_frame_, &pair.images.left) && to_encoded(other, &pair.images.right))
             receiver_->take(pair);
         else
             receiver_->refuse("a frame is not 8-bit colour");
@@ -85,14 +88,16 @@ class camera_source : public capture_source
 public:
     using capture_source::capture_source;
 
-    void ask_size(const camera &eye)
+    bool ask(const char *left, const char *right, const camera &eye, double rate, char *error,
+             size_t error_size)
     {
-        for (cv::VideoCapture *capture : {&left_, &right_}) {
-            capture->set(cv::CAP_PROP_FRAME_WIDTH, eye.width);
-            capture->set(cv::CAP_PROP_FRAME_HEIGHT, eye.height);
-            /* The newest frame, not one from a queue that the driver keeps. */
-            capture->set(cv::CAP_PROP_BUFFERSIZE, 1);
-        }
+        if (!camera_ask(&left_, left, eye, rate, error, error_size) ||
+            (right && !camera_ask(&right_, right, eye, rate, error, error_size)))
+            return false;
+        camera_warn_of_automatics(left);
+        if (right)
+            camera_warn_of_automatics(right);
+        return true;
     }
 
     source_state poll(int) override
@@ -151,16 +156,52 @@ private:
     int64_t due_ = 0;                    /* monotonic us */
     int64_t frames_ = 0;
 };
+
+class picture_source : public source
+{
+public:
+    picture_source(const cv::Mat &picture, pair_receiver *receiver)
+        : picture_(picture), receiver_(receiver)
+    {
+    }
+
+    source_state poll(int) override
+    {
+        incoming_pair pair;
+
+        pair.images.utime = first_stamp;
+        pair.waited = 0;
+        if (to_encoded(picture_, &pair.images.left) && to_encoded(picture_, &pair.images.right))
+            receiver_->take(pair);
+        return SOURCE_ENDED;
+    }
+
+private:
+    cv::Mat picture_;
+    pair_receiver *receiver_;
+};
 } // namespace
 
+std::unique_ptr<source> source_one(const char *name, const camera &eye, double rate,
+                                   pair_receiver *receiver, char *error, size_t error_size)
+{
+    if (strncmp(name, "/dev/", 5) == 0)
+        return source_cameras(name, nullptr, eye, rate, receiver, error, error_size);
+    const cv::Mat picture = image_file_read(name);
+    if (!picture.empty())
+        return std::make_unique<picture_source>(picture, receiver);
+    return source_videos(name, nullptr, 0, receiver, error, error_size);
+}
+
 std::unique_ptr<source> source_cameras(const char *left, const char *right, const camera &eye,
-                                       pair_receiver *receiver, char *error, size_t error_size)
+                                       double rate, pair_receiver *receiver, char *error,
+                                       size_t error_size)
 {
     std::unique_ptr<camera_source> made(new camera_source(receiver));
 
-    if (!made->open(left, right, cv::CAP_V4L2, error, error_size))
+    if (!made->open(left, right, cv::CAP_V4L2, error, error_size) ||
+        !made->ask(left, right, eye, rate, error, error_size))
         return nullptr;
-    made->ask_size(eye);
     return made;
 }
 

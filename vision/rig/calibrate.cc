@@ -1,6 +1,5 @@
 #include "vision/rig/calibrate.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 
 #include "common/program/log.h"
 #include "vision/ball/edges.h"
+#include "vision/pictures/image_file.h"
 #include "vision/rig/rig_file.h"
 
 static const int64_t enough_time = 30000000; /* us of pairs */
@@ -148,11 +148,7 @@ static bool draw(const stereo_rig &rig, const std::vector<sighting> &sightings, 
         draw_eye(rig.left, one.left.cone, one, 0, &picture);
         draw_eye(rig.right, one.right.cone, one, rig.left.width, &picture);
     }
-    try {
-        return cv::imwrite(path, picture);
-    } catch (const cv::Exception &) {
-        return false;
-    }
+    return image_file_write(path, picture);
 }
 
 static void tell(const solution &found, size_t sightings)

@@ -65,6 +65,16 @@ scene fixture_plain_scene()
     return what;
 }
 
+encoded_image fixture_encoded(const picture &from)
+{
+    return {from.rgb.data(),
+            from.rgb.size(),
+            from.width,
+            from.height,
+            static_cast<size_t>(from.width) * 3,
+            PIXEL_FORMAT_RGB};
+}
+
 std::vector<uint8_t> fixture_jpeg(const picture &from, int quality)
 {
     const cv::Mat rgb(from.height, from.width, CV_8UC3, const_cast<uint8_t *>(from.rgb.data()));

@@ -36,6 +36,9 @@ fixture_truth fixture_truth_of(const scene &what, const scene_eyes &eyes);
 /* A ball straight ahead, evenly lit. */
 scene fixture_plain_scene();
 
+/* The picture as it lies in a message; points into it. */
+encoded_image fixture_encoded(const picture &from);
+
 /* JPEG bytes of a picture. */
 std::vector<uint8_t> fixture_jpeg(const picture &from, int quality);
 

@@ -140,10 +140,17 @@ static hit nearest(const scene &what, const std::vector<direction> &centres, con
     return best;
 }
 
+/* About where a sphere is seen; px. */
+struct place {
+    pixel_point middle;
+    double radius;
+};
+
 struct drawing {
     const scene &what;
     camera eye;
     std::vector<direction> centres; /* eye's frame */
+    std::vector<place> places;
     direction light;
     backdrop behind;
 };
@@ -174,12 +181,10 @@ static int care(const drawing &draw, int column, int row)
 
     if (draw.what.bar && column > draw.what.bar_left - 2 && column < draw.what.bar_right + 2)
         needed = column < draw.what.bar_left + 2 || column > draw.what.bar_right - 2 ? 2 : 1;
-    for (size_t i = 0; i < draw.centres.size() && needed < 2; i++) {
-        const direction &centre = draw.centres[i];
-        const pixel_point middle = camera_project(draw.eye, tilted(draw.eye, centre));
-        const double radius = draw.eye.focal * draw.what.spheres[i].radius / centre.z;
-        const double x = column - middle.column;
-        const double y = row - middle.row;
+    for (size_t i = 0; i < draw.places.size() && needed < 2; i++) {
+        const double radius = draw.places[i].radius;
+        const double x = column - draw.places[i].middle.column;
+        const double y = row - draw.places[i].middle.row;
         const double away = x * x + y * y;
         if (away > 1.3 * 1.3 * radius * radius + 9)
             continue;
@@ -225,12 +230,16 @@ picture scene_draw(const scene &what, const scene_eyes &eyes, bool left, std::mt
 {
     const pose at = pose_of(eyes, left);
     const camera &eye = left ? eyes.left : eyes.right;
-    drawing draw = {what, eye, {}, {}, make_backdrop(eye.width, eye.height, what.texture)};
+    drawing draw = {what, eye, {}, {}, {}, make_backdrop(eye.width, eye.height, what.texture)};
     const std::vector<double> noise = make_noise(what.noise, random);
     picture result;
 
-    for (const scene_sphere &ball : what.spheres)
-        draw.centres.push_back(to_eye(at, ball.centre));
+    for (const scene_sphere &ball : what.spheres) {
+        const direction centre = to_eye(at, ball.centre);
+        draw.centres.push_back(centre);
+        draw.places.push_back(
+            {camera_project(eye, tilted(eye, centre)), eye.focal * ball.radius / centre.z});
+    }
     draw.light = to_eye({0, at.cosine, at.sine}, what.light);
     result.width = eye.width;
     result.height = eye.height;

@@ -1,10 +1,13 @@
 /* Where vision says that the ball is, against where it was drawn. */
+#include <opencv2/core.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
 #include "fixture.h"
+#include "vision/answers/show.h"
 #include "vision/answers/statistics.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
@@ -225,15 +228,59 @@ START_TEST(what_was_refused_is_named)
         eyes_init(&who, one.config);
         const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
         ck_assert_int_eq(marker.reason, STEREO_NOT_IN_RIGHT);
-        ck_assert(!who.looked_left);
-        ck_assert_int_ge(who.work.n_refused, 1);
-        ck_assert_int_eq(who.work.refused[0].fault, one.fault);
+        ck_assert_int_eq(who.in_right.n_found, 0);
+        ck_assert_int_ge(who.in_right.n_refused, 1);
+        ck_assert_int_eq(who.in_right.refused[0].fault, one.fault);
         statistics counts;
         char line[512];
         counts.faults[one.fault] = 3;
         statistics_unseen(counts, line, sizeof line);
         ck_assert_ptr_nonnull(strstr(line, blob_fault_text(one.fault)));
         ck_assert_ptr_nonnull(strstr(line, ": 3"));
+    }
+}
+END_TEST
+
+/* Pixels of about this colour, as smooth lines have it, in a half of the drawn pair. */
+static int drawn_in(const cv::Mat &pair, bool left, const cv::Scalar &colour)
+{
+    cv::Mat same;
+
+    cv::inRange(pair.colRange(left ? 0 : 640, left ? 640 : 1280), colour - cv::Scalar::all(60),
+                colour + cv::Scalar::all(60), same);
+    return cv::countNonZero(same);
+}
+
+/* In the picture for people: the ball red, what was refused orange, in each eye. */
+START_TEST(candidates_are_drawn)
+{
+    static const cv::Scalar red(0, 0, 255);
+    static const cv::Scalar orange(0, 200, 255);
+    std::mt19937_64 random(9);
+    const picture_pair pair = fixture_draw(fixture_plain_scene(), scene_default_eyes(), random);
+    eyes_config small = fixture_config();
+    eyes_config crooked = fixture_config();
+
+    small.limits.radius_min = 4 * 3.14159265358979323846 / 180;
+    crooked.rig.left.pitch = 0.02;
+    const struct {
+        eyes_config config;
+        stereo_reason reason;
+        bool left, right; /* refused ones there */
+    } cases[] = {{fixture_config(), STEREO_SEEN, false, false},
+                 {small, STEREO_NOT_IN_RIGHT, false, true},
+                 {crooked, STEREO_HEIGHTS_DIFFER, true, true}};
+    for (const auto &one : cases) {
+        eyes who;
+        eyes_init(&who, one.config);
+        const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
+        ck_assert_int_eq(marker.reason, one.reason);
+        const cv::Mat drawn =
+            show_draw(pair.left.view(), pair.right.view(), who, marker.reason, "");
+        for (const bool left : {true, false}) {
+            ck_assert_int_eq(drawn_in(drawn, left, red) > 5, one.reason == STEREO_SEEN);
+            ck_assert_int_eq(drawn_in(drawn, left, orange) > 5, left ? one.left : one.right);
+        }
     }
 }
 END_TEST
@@ -277,6 +324,7 @@ int main()
         ball_cut_by_the_rim_needs_enough_outline,
         other_greenish_things_are_not_the_ball,
         what_was_refused_is_named,
+        candidates_are_drawn,
         no_usable_pair_at_all_is_noticed,
         nothing_is_seen_where_nothing_is,
     };

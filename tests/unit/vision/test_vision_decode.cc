@@ -234,6 +234,49 @@ START_TEST(raw_formats_are_converted)
 }
 END_TEST
 
+/* Grey where a coloured ball is sought: name, number and what is taken. For a tag it is enough. */
+START_TEST(grey_is_refused_by_name_and_number)
+{
+    const bytes levels(static_cast<size_t>(eye.width) * eye.height, 90);
+    encoded_image raw = {
+        levels.data(),    levels.size(), eye.width, eye.height, static_cast<size_t>(eye.width),
+        PIXEL_FORMAT_GRAY};
+    const bytes jpeg = compress(TJSAMP_GRAY, 0);
+    encoded_image compressed = {jpeg.data(), jpeg.size(), eye.width,
+                                eye.height,  0,           PIXEL_FORMAT_MJPEG};
+    decoder colours;
+    decoder any(true);
+    image_view view;
+
+    const char *wrong = colours.decode(raw, eye, &view);
+    ck_assert_ptr_nonnull(wrong);
+    ck_assert_ptr_nonnull(strstr(wrong, "GRAY, pixelformat 1497715271"));
+    ck_assert_ptr_nonnull(strstr(wrong, "send MJPEG, RGB, BGR"));
+    wrong = colours.decode(compressed, eye, &view);
+    ck_assert_ptr_nonnull(wrong);
+    ck_assert_ptr_nonnull(strstr(wrong, "MJPEG, pixelformat 1196444237"));
+    ck_assert_ptr_null(any.decode(raw, eye, &view));
+    ck_assert_int_eq(image_pixel(view, 3, 4)[2], 90);
+    ck_assert_ptr_null(any.decode(compressed, eye, &view));
+}
+END_TEST
+
+START_TEST(both_sizes_of_a_jpeg_are_named)
+{
+    const bytes jpeg = compress(TJSAMP_420, 0);
+    camera other = eye;
+    decoder decoding;
+    image_view view;
+
+    other.width = 320;
+    const char *wrong = decoding.decode(
+        {jpeg.data(), jpeg.size(), other.width, other.height, 0, PIXEL_FORMAT_MJPEG}, other, &view);
+    ck_assert_ptr_nonnull(wrong);
+    ck_assert_ptr_nonnull(strstr(wrong, "640 x 480"));
+    ck_assert_ptr_nonnull(strstr(wrong, "320 x 480"));
+}
+END_TEST
+
 int main()
 {
     const TTest *const tests[] = {
@@ -243,6 +286,8 @@ int main()
         standard_tables_come_back,
         what_is_cut_is_refused,
         raw_formats_are_converted,
+        grey_is_refused_by_name_and_number,
+        both_sizes_of_a_jpeg_are_named,
     };
     std::mt19937_64 random(51);
 

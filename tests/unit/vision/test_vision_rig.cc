@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "common/program/log.h"
+#include "crooked.h"
 #include "fixture.h"
-#include "vision/config.h"
 #include "vision/rig/calibrate.h"
 #include "vision/rig/from_opencv.h"
 
@@ -18,28 +18,6 @@
 
 static const double degree = 3.14159265358979323846 / 180;
 static const int n_sightings = 80;
-static const int n_checks = 12;
-
-/* Webcams on a home-made mount. */
-static scene_eyes crooked_eyes()
-{
-    scene_eyes eyes = scene_default_eyes();
-
-    eyes.left.roll = 2 * degree;
-    eyes.left.pitch = 1 * degree;
-    eyes.left.aspect = eyes.right.aspect = 0.96;
-    return eyes;
-}
-
-static encoded_image encoded(const picture &from)
-{
-    return {from.rgb.data(),
-            from.rgb.size(),
-            from.width,
-            from.height,
-            static_cast<size_t>(from.width) * 3,
-            PIXEL_FORMAT_RGB};
-}
 
 static void show_ball(rig_calibrator *learner, int i, std::mt19937_64 &random)
 {
@@ -48,48 +26,9 @@ static void show_ball(rig_calibrator *learner, int i, std::mt19937_64 &random)
 
     incoming.waited = 0;
     incoming.images.utime = 1000000 + 100000 * i;
-    incoming.images.left = encoded(pair.left);
-    incoming.images.right = encoded(pair.right);
+    incoming.images.left = fixture_encoded(pair.left);
+    incoming.images.right = fixture_encoded(pair.right);
     learner->take(incoming);
-}
-
-static eyes_config load(const char *path)
-{
-    eyes_config config = fixture_config();
-    vision_config read;
-    char error[256];
-
-    ck_assert_msg(config_load(&read, path, nullptr, 0, error, sizeof error) == 0, "%s", error);
-    const stereo_rig rig = config_eyes(read).rig;
-    config.rig.left = rig.left;
-    config.rig.right = rig.right;
-    config.rig.vergence = rig.vergence;
-    config.rig.baseline = rig.baseline;
-    return config;
-}
-
-/* How many of new pairs are seen; those must be right. */
-static int count_seen(const eyes_config &config, std::mt19937_64 &random)
-{
-    const scene_eyes rig = crooked_eyes();
-    int seen = 0;
-
-    for (int i = 0; i < n_checks; i++) {
-        const scene what = scene_random(random);
-        const picture_pair pair = fixture_draw(what, rig, random);
-        const fixture_truth truth = fixture_truth_of(what, rig);
-        eyes who;
-        eyes_init(&who, config);
-        const stereo_marker marker = eyes_look(&who, 1, pair.left.view(), pair.right.view());
-        if (marker.reason != STEREO_SEEN)
-            continue;
-        seen++;
-        ck_assert_double_eq_tol(marker.disparity, truth.disparity, 0.3);
-        ck_assert_double_lt(
-            std::fabs(stereo_height(config.rig, who.left_blob.cone.axis, who.right_blob.cone.axis)),
-            0.5);
-    }
-    return seen;
 }
 
 START_TEST(a_moved_ball_tells_how_the_eyes_stand)
@@ -98,15 +37,15 @@ START_TEST(a_moved_ball_tells_how_the_eyes_stand)
     std::mt19937_64 random(fixture_seed(61));
     rig_calibrator learner(fixture_config());
 
-    ck_assert_int_le(count_seen(fixture_config(), random), n_checks / 4);
+    ck_assert_int_le(crooked_seen(fixture_config(), random), CROOKED_CHECKS / 4);
     for (int i = 0; i < n_sightings; i++)
         show_ball(&learner, i, random);
     ck_assert_int_eq(learner.finish(path, nullptr), 0);
-    const eyes_config config = load(path);
+    const eyes_config config = crooked_load(path);
     unlink(path);
     ck_assert_double_eq_tol(config.rig.left.aspect, 0.96, 0.003);
     ck_assert_double_eq_tol((config.rig.left.roll - config.rig.right.roll) / degree, 2, 0.1);
-    ck_assert_int_eq(count_seen(config, random), n_checks);
+    ck_assert_int_eq(crooked_seen(config, random), CROOKED_CHECKS);
 }
 END_TEST
 

@@ -100,8 +100,8 @@ START_TEST(what_is_not_there_is_named)
 
     ck_assert(!source_videos("no-such-left.avi", "b.avi", 0, &receiver, error, sizeof error));
     ck_assert_ptr_nonnull(strstr(error, "no-such-left.avi"));
-    ck_assert(
-        !source_cameras("/dev/no-such-camera", "/dev/null", eye, &receiver, error, sizeof error));
+    ck_assert(!source_cameras("/dev/no-such-camera", "/dev/null", eye, 30, &receiver, error,
+                              sizeof error));
     ck_assert_ptr_nonnull(strstr(error, "/dev/no-such-camera"));
 }
 END_TEST

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fixture.h"
+#include "vision/config.h"
 
 /* Check defines a macro `fail`, which the C++ library uses as a name: it comes last. */
 #include "tests/unit/suite.h"
@@ -222,6 +223,36 @@ START_TEST(a_cone_is_fitted_through_gross_errors)
 }
 END_TEST
 
+/* What is right for a ball of 40 px in a picture 640 px wide is too strict for larger ones. */
+START_TEST(tolerances_grow_with_ball_and_picture)
+{
+    const scene_eyes eyes = scene_default_eyes();
+    const stereo_rig rig = fixture_config().rig;
+    const direction point = {0, 0, 0.5};
+    const char *const wide[] = {"camera.width=1920", "camera.height=1080"};
+    vision_config usual;
+    vision_config large;
+    char error[256];
+
+    for (const double radius : {0.02, 0.1}) {
+        const blob left = finding(eyes, true, point, radius);
+        const blob right = moved(eyes.right, finding(eyes, false, point, radius), 0, 4);
+        ck_assert_int_eq(stereo_check(rig, left, right),
+                         radius > 0.05 ? STEREO_SEEN : STEREO_HEIGHTS_DIFFER);
+    }
+    ck_assert_int_eq(config_load(&usual, nullptr, nullptr, 0, error, sizeof error), 0);
+    ck_assert_int_eq(config_load(&large, nullptr, wide, 2, error, sizeof error), 0);
+    const eyes_config a = config_eyes(usual);
+    const eyes_config b = config_eyes(large);
+    ck_assert_double_eq_tol(a.rig.height_tolerance, 3, 1e-12);
+    ck_assert_double_eq_tol(b.rig.height_tolerance, 9, 1e-12);
+    ck_assert_double_eq_tol(b.rig.disparity_max, 3 * a.rig.disparity_max, 1e-9);
+    ck_assert_double_eq_tol(b.rig.disparity_min, 3 * a.rig.disparity_min, 1e-9);
+    ck_assert_double_eq_tol(b.window.margin, 3 * a.window.margin, 1e-9);
+    ck_assert_double_eq_tol(b.window.growth, 3 * a.window.growth, 1e-9);
+}
+END_TEST
+
 int main()
 {
     const TTest *const tests[] = {
@@ -234,6 +265,7 @@ int main()
         the_pair_that_agrees_wins_over_better_scores,
         disparity_is_positive_when_near,
         a_cone_is_fitted_through_gross_errors,
+        tolerances_grow_with_ball_and_picture,
     };
 
     return SUITE_RUN("vision stereo", tests);
