@@ -11,8 +11,8 @@ import subprocess
 import tempfile
 import zlib
 from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -26,6 +26,8 @@ from .hard_studies import hard_studies
 from .programs import ROOT
 from .progress import Progress
 from .studies import Bar
+from .sweep.run_process import Told
+from .sweep.sweep import Sweep
 
 HARD = "hard"
 TITLES = {BODY: "The learner on a body that it found", HARD: "The learner on hard streams"}
@@ -44,10 +46,17 @@ def seeds_of(hash_: str, draws: int) -> list[int]:
     return [int(seed) for seed in state]
 
 
-def evaluate(
+def evaluate(options: argparse.Namespace, seeds: list[int], name: str, draw: int,
+             told: Told) -> dict:  # fmt: skip
+    """reach-eval's results by learner (those of options.learners, or both) and number of samples: a
+    run of a sweep, which makes the study anew."""
+    (study,) = (s for s in studies_of(options.group, options.data) if s.name == name)
+    return results_of(study, draw, seeds[draw], options.param, options.learners)
+
+
+def results_of(
     study: BodyStudy, draw: int, seed: int, parameters: list[str], only: list[str]
 ) -> dict:
-    """reach-eval's results by learner (those of `only`, or both) and number of samples."""
     rng = np.random.default_rng([zlib.crc32(study.name.encode()), seed])
     counts = sorted({bar.at for bar in study.bars})
     with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
@@ -175,7 +184,7 @@ def _write(out: Path, summary: dict) -> None:
     (out / f"{name}.html").write_text(_page(summary))
 
 
-def run(options: argparse.Namespace) -> list[dict]:
+def run(options: argparse.Namespace, sweep: Sweep) -> list[dict]:
     chosen = chosen_of(options)
     seeds = seeds_of(options.commit or commit(), options.draws)
     summary = {"group": options.group, "commit": options.commit or commit(), "seeds": seeds,
@@ -185,11 +194,8 @@ def run(options: argparse.Namespace) -> list[dict]:
     for study in chosen:
         draws = min(options.draws, study.most_draws or options.draws)
         progress.update(study.name, 0.0, f"{draws} draws")
-        with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
-            found = list(pool.map(lambda draw, s=study: evaluate(s, draw, seeds[draw],
-                                                                options.param,
-                                                                options.learners),
-                                  range(draws)))  # fmt: skip
+        found = sweep.map(study.name, partial(evaluate, options, seeds, study.name), draws,
+                          progress, at_once=1 if study.alone else None)  # fmt: skip
         rows = rows_of(study, found)
         summary["rows"] += rows
         missed = [row["metric"] for row in rows if row["met"] is False]
