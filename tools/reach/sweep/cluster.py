@@ -58,7 +58,7 @@ class Lab:
     def __init__(self, address: str):
         self._address = address
         try:
-            self.client = distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+            self.client = distributed.Client(address, timeout=CONNECT_SECONDS)
         except (OSError, TimeoutError, ValueError, TypeError) as error:
             raise ClusterError(f"no scheduler answers at {address}: {error}") from None
 

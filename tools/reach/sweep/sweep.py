@@ -64,7 +64,6 @@ class _Under:
     """A run that is under way."""
 
     job: Job
-    worker: str  # to which it was given; another one may have it since
     tries: int
 
 
@@ -134,27 +133,24 @@ class Sweep:
         """No more than there are workers: what waits at a worker that dies counts as its victim."""
         if not waiting:
             return
-        ours = self._workers()
-        busy = {under.worker for under in self._under.values()}
-        idle = [worker for worker in ours if worker not in busy]
-        room = min(len(ours), at_once or len(ours)) - len(self._under)
-        for worker in idle[: max(0, room)]:
-            if waiting:
-                self._hand_to(worker, *waiting.popleft())
+        workers = self._workers()
+        room = min(workers, at_once or workers) - len(self._under)
+        for _ in range(min(room, len(waiting))):
+            self._submit(*waiting.popleft())
 
-    def _hand_to(self, worker: str, job: Job, tries: int) -> None:
+    def _submit(self, job: Job, tries: int) -> None:
         folder = None if job.folder is None else True
         if job.folder is not None and self._cluster.writes_here:
             folder = str(job.folder)
         future = self._client.submit(
             carrying.carry_out, job.order(self._expected, self._network), job.modules(),
             self._topic, job.name, folder, key=f"{job.name}-{uuid.uuid4()}", pure=False,
-            resources={self._resource: 1}, workers=[worker], allow_other_workers=True,
+            resources={self._resource: 1},  # of which each worker like us has one
         )  # fmt: skip
-        self._under[future] = _Under(job, worker, tries)
+        self._under[future] = _Under(job, tries)
 
-    def _workers(self) -> list[str]:
-        """Those that would do what we do. The others are refused, and each is told of once."""
+    def _workers(self) -> int:
+        """How many would do what we do. The others are refused, and each is told of once."""
         every = self._client.scheduler_info(n_workers=-1)["workers"]
         ours = [name for name, info in every.items() if self._resource in info["resources"]]
         for name in set(every) - set(ours) - self._refused:
@@ -162,7 +158,7 @@ class Sweep:
             theirs = ", ".join(every[name]["resources"]) or "no worker of this project"
             print(f"refused  {name} is {theirs}; here is {self._resource}", file=sys.stderr)
         self._complain_of_nobody(bool(ours))
-        return ours
+        return len(ours)
 
     def _complain_of_nobody(self, somebody: bool) -> None:
         if somebody or not self._scheduler:
@@ -183,6 +179,9 @@ class Sweep:
             distributed.wait(list(self._under), LOOK_SECONDS, return_when="FIRST_COMPLETED")
         except TimeoutError:
             return []
+        except distributed.client.FuturesCancelledError:
+            self._cluster.check()
+            raise cluster.ClusterError("the scheduler has forgotten a run") from None
         return [future for future in self._under if future.done()]
 
     def _gather(self, future: distributed.Future, outcome: Outcome) -> tuple[Job, int] | None:
@@ -195,8 +194,6 @@ class Sweep:
             return None  # its worker has died since, and it is under way again
         except distributed.scheduler.KilledWorker:
             found = ("failed", "each worker that did it has died"), None
-        except distributed.client.FutureCancelledError:
-            raise cluster.ClusterError("the scheduler has forgotten a run") from None
         del self._under[future]
         if found is None or not self._fetch(found, under):
             if under.tries < TRIES:
