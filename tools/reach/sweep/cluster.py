@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 from ..processes import die_with_parent
-from .library import distributed
+from .library import HTTP, distributed
 
 CONNECT_SECONDS = 20
 STOP_SECONDS = 40.0  # more than a worker gives the programs of its run
@@ -21,8 +21,9 @@ class Here:
     writes_here = True  # runs write into the user's folders
 
     def __init__(self, at_once: int):
-        self._cluster = distributed.LocalCluster(
-            n_workers=0, host="127.0.0.1", dashboard_address=None, silence_logs=False
+        options = {"host": "127.0.0.1", "port": 0, "dashboard": False, "dashboard_address": HTTP}
+        self._cluster = distributed.SpecCluster(
+            scheduler={"cls": distributed.Scheduler, "options": options}, silence_logs=False
         )
         self.client = distributed.Client(self._cluster)
         # A session of its own keeps Ctrl-C from it: it ends when it is told to.

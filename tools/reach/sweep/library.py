@@ -19,4 +19,7 @@ dask.config.set(
 
 import distributed  # noqa: E402 - after its settings
 
-__all__ = ["distributed"]
+__all__ = ["HTTP", "distributed"]
+
+# Where schedulers and workers listen for browsers, as they must, and have nothing to show.
+HTTP = "127.0.0.1:0"

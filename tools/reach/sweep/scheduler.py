@@ -22,7 +22,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
 
 
 async def serve(host: str, port: int) -> int:
-    from .library import distributed
+    from .library import HTTP, distributed
 
     ending = asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -30,7 +30,11 @@ async def serve(host: str, port: int) -> int:
     protocol, _, name = host.rpartition("://")
     try:
         async with distributed.Scheduler(
-            host=name, port=port, protocol=protocol or None, dashboard=False
+            host=name,
+            port=port,
+            protocol=protocol or None,
+            dashboard=False,
+            dashboard_address=HTTP,
         ) as scheduler:
             print(f"scheduler: listens at {scheduler.address}", flush=True)
             await ending.wait()

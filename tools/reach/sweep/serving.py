@@ -6,7 +6,7 @@ import signal
 import tempfile
 
 from ..processes import die_with_parent
-from .library import distributed
+from .library import HTTP, distributed
 
 NO_SCHEDULER = 3  # exit code: nobody answered
 CONNECT_SECONDS = 60
@@ -50,6 +50,7 @@ def _worker(address: str, resource: str, place: str) -> distributed.Worker:
     return distributed.Worker(
         address,
         host=distributed.utils.get_ip(host, port),  # heard there, and on no other interface
+        dashboard_address=HTTP,
         nthreads=1,
         resources={resource: 1},
         memory_limit=0,  # what takes memory are the runs, in processes of their own
