@@ -39,6 +39,8 @@ def draw(seed: int, marker: Path | None, told, folder: Path) -> str:
     (folder / "series").mkdir()
     (folder / "series/small").write_text(str(seed))
     (folder / "large").write_bytes(data)
+    if seed == 5:
+        raise OSError("the ball is gone")
     told.finish("draw", "drawn")
     return hashlib.sha256(data).hexdigest()
 
@@ -142,7 +144,7 @@ class Cluster(unittest.TestCase):
 
     def jobs(self, where: str, marker: Path | None) -> list[Job]:
         return [Job(f"run-{seed}", functools.partial(draw, seed, marker if seed == 2 else None),
-                    self.folder / where / str(seed)) for seed in range(1, 5)]  # fmt: skip
+                    self.folder / where / str(seed)) for seed in range(1, 6)]  # fmt: skip
 
     def do(self, jobs: list[Job], stop: Stop, scheduler: str | None):
         said = io.StringIO()
@@ -163,9 +165,10 @@ class Cluster(unittest.TestCase):
             self.jobs("there", self.folder / "marker"), killer, f"127.0.0.1:{PORT}"
         )
         self.assertTrue(killer.killed, "nobody was killed")
-        self.assertEqual((outcome.failed, outcome.results), ({}, alone.results))
+        self.assertEqual((outcome.failed, outcome.results), (alone.failed, alone.results))
+        self.assertEqual(outcome.failed, {"run-5": "the ball is gone"})
         self.assertEqual(content(self.folder / "there"), content(self.folder / "here"))
-        self.assertEqual(len(content(self.folder / "there")), 8)
+        self.assertEqual(len(content(self.folder / "there")), 10)
         for seed in range(1, 5):
             self.assertIn(f"run-{seed}/draw: drawn\n", said)
         self.assertEqual(complained.count("refused  tcp://10.77.3.2"), 1)

@@ -131,8 +131,6 @@ class Sweep:
 
     def _hand_out(self, waiting: deque, at_once: int | None) -> None:
         """No more than there are workers: what waits at a worker that dies counts as its victim."""
-        if not waiting:
-            return
         workers = self._workers()
         room = min(workers, at_once or workers) - len(self._under)
         for _ in range(min(room, len(waiting))):
@@ -151,7 +149,10 @@ class Sweep:
 
     def _workers(self) -> int:
         """How many would do what we do. The others are refused, and each is told of once."""
-        every = self._client.scheduler_info(n_workers=-1)["workers"]
+        try:
+            every = self._client.scheduler_info(n_workers=-1)["workers"]
+        except (OSError, TimeoutError) as error:
+            raise cluster.ClusterError(f"the scheduler does not answer: {error}") from None
         ours = [name for name, info in every.items() if self._resource in info["resources"]]
         for name in set(every) - set(ours) - self._refused:
             self._refused.add(name)
@@ -194,6 +195,8 @@ class Sweep:
             return None  # its worker has died since, and it is under way again
         except distributed.scheduler.KilledWorker:
             found = ("failed", "each worker that did it has died"), None
+        except Exception as error:  # a worker that cannot begin it
+            found = ("failed", f"its worker says: {error!r}"), None
         del self._under[future]
         if found is None or not self._fetch(found, under):
             if under.tries < TRIES:
