@@ -1,4 +1,4 @@
-"""Does runs for sweeps on other machines: ./run paper, accuracy and tune with --scheduler ADDRESS.
+"""Does runs for the sweeps that come to a scheduler: ./run paper and accuracy with --scheduler.
 
 It must be of the same version, with the same programs, as the tree from which they come; others
 are refused there. It ends when the scheduler does. Whoever reaches the scheduler can run anything
