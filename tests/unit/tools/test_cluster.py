@@ -138,7 +138,8 @@ class Cluster(unittest.TestCase):
         self.scheduler.stdout.close()
 
     def machine(self, number: int, **environment: str) -> Machine:
-        machine = Machine(number, environment)
+        # What a machine leaves that is killed goes with the folder.
+        machine = Machine(number, {"TMPDIR": str(self.folder), **environment})
         self.addCleanup(machine.close)
         return machine
 
