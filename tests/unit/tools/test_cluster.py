@@ -160,7 +160,9 @@ class Cluster(unittest.TestCase):
             job.folder.mkdir(parents=True)
         alone, _, _ = self.do(here, Stop(), None)
         machines = [self.machine(1), self.machine(2)]
-        stranger = self.machine(3, REACH_BUILD_DIR=str(self.folder))  # has no programs
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/reachd").write_text("another")
+        stranger = self.machine(3, REACH_BUILD_DIR=str(self.folder))  # has other programs
         killer = Killer(self.folder / "marker", machines)
         outcome, said, complained = self.do(
             self.jobs("there", self.folder / "marker"), killer, f"127.0.0.1:{PORT}"
