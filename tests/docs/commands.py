@@ -10,8 +10,8 @@ import known
 # Programs of others that the documentation may use.
 OUTSIDE = """
 apt-get cat cc cd chrt cmake cpack ctest dpkg echo exit export git head install ip jobs journalctl
-jq kill lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat pip pkg-config sleep sysctl
-systemctl systemd-analyze wait for while done if fi .venv/bin/rerun
+jq kill lcm-gen lcm-logger lcm-logplayer lcm-spy make man mkdir nstat openssl pip pkg-config sleep
+sysctl systemctl systemd-analyze true wait for while done if fi .venv/bin/rerun
 """.split()  # noqa: SIM905, a list of words
 # Words before a command, with how many words of their own follow each.
 WRAPPERS = {

@@ -9,6 +9,7 @@ import json
 import sys
 import tempfile
 import zlib
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,13 +20,19 @@ from .body_stream import BODY, POLYNOMIAL
 from .command_line import Parser
 from .curves import run as curves
 from .evaluation import EvaluationError, reach_eval
+from .paper.replay import ReplayError
 from .programs import ROOT
 from .progress import Progress
+from .session import Stop
 from .studies import Study, studies
+from .sweep import add_options
+from .sweep.run_process import Told
+from .sweep.sweep import Sweep, SweepError
 
 
-def evaluate(study: Study, draw: int, parameters: list[str]) -> dict:
-    """reach-eval's results by number of samples."""
+def evaluate(name: str, quick: bool, parameters: list[str], draw: int, told: Told) -> dict:
+    """reach-eval's results by number of samples: a run of a sweep, which makes the study anew."""
+    (study,) = (study for study in studies(quick) if study.name == name)
     seed = [zlib.crc32(study.name.encode()), draw]
     counts = sorted({bar.at for bar in study.bars})
     with tempfile.TemporaryDirectory(prefix="reach-accuracy-") as name:
@@ -62,16 +69,15 @@ def table(rows: list[dict], what: dict[str, str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def run(options: argparse.Namespace) -> list[dict]:
+def run(options: argparse.Namespace, sweep: Sweep) -> list[dict]:
     chosen = [s for s in studies(options.quick)
               if (s.name in options.only if options.only else s.kept)]  # fmt: skip
     progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
     rows: list[dict] = []
     for study in chosen:
-        draws = []
-        for draw in range(options.draws):
-            progress.update(study.name, draw / options.draws, f"draw {draw + 1}")
-            draws.append(evaluate(study, draw, options.param))
+        progress.update(study.name, 0.0, f"{options.draws} draws")
+        draws = sweep.map(study.name, partial(evaluate, study.name, options.quick, options.param),
+                          options.draws, progress)  # fmt: skip
         rows += rows_of(study, draws)
         missed = [row["metric"] for row in rows if row["study"] == study.name and not row["met"]]
         progress.finish(study.name, f"not met: {', '.join(missed)}" if missed else "all met")
@@ -157,9 +163,7 @@ def _parser(names: list[str], groups: dict[str, list[str]]) -> argparse.Argument
         help="set a parameter of the learner; may be repeated",
     )
     _add_of_groups(parser)
-    parser.add_argument(
-        "--jobs", type=int, default=2, help="of body, hard and curves: draws at once; default 2"
-    )
+    add_options(parser, 2, "draws")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "accuracy")
     return parser
 
@@ -189,24 +193,41 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
             if options.quick
             else body_accuracy.DRAWS[options.group]
         )
-    if options.draws < 1 or options.jobs < 1:
-        parser.error("--draws and --jobs must be at least 1")
+    if options.draws < 1:
+        parser.error("--draws must be at least 1")
+    if options.scheduler and (options.vision or options.data or options.resume):
+        parser.error(
+            "--scheduler has no pictures for vision, no reference data, no draws to resume"
+        )
     return options
+
+
+def measure(options: argparse.Namespace) -> None:
+    """What reach-eval measures."""
+    failures = (EvaluationError, ReplayError, OSError)
+    with Sweep(options.jobs, Stop(), options.scheduler, failures) as sweep:
+        if options.curves:
+            picture = curves.run(options, sweep)
+            print(f"accuracy: {picture} shows them, curves.json beside it has them")
+        else:
+            (body_accuracy.run if options.group else run)(options, sweep)
 
 
 def main(arguments: list[str] | None = None) -> int:
     options = parse(arguments)
     try:
-        if options.curves:
-            print(f"accuracy: {curves.run(options)} shows them, curves.json beside it has them")
-            return 0
         if options.vision:
             vision_accuracy.run(options)
         else:
-            (body_accuracy.run if options.group else run)(options)
-    except (EvaluationError, OSError) as error:
+            measure(options)
+    except (EvaluationError, SweepError, OSError) as error:
         print(f"accuracy: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("\naccuracy: stopped; studies that were complete are written", file=sys.stderr)
+        return 130
+    if options.curves:
+        return 0
     group = vision_accuracy.STUDY if options.vision else options.group
     name, numbers = (f"{group}.md", f"{group}.json") if group else ("table.md", "accuracy.json")
     print((options.out / name).read_text(), end="")

@@ -11,8 +11,8 @@ import subprocess
 import tempfile
 import zlib
 from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -27,6 +27,8 @@ from .kept_draws import KeptDraws
 from .programs import ROOT
 from .progress import Progress
 from .studies import Bar
+from .sweep.run_process import Told
+from .sweep.sweep import Sweep
 
 HARD = "hard"
 TITLES = {BODY: "The learner on a body that it found", HARD: "The learner on hard streams"}
@@ -49,10 +51,19 @@ BATCH = "batch"
 AS_BATCH = 1.2  # a bar that no fit of the same rows can reach is that many times what one has
 
 
-def evaluate(
+def evaluate(options: argparse.Namespace, seeds: list[int], name: str, draw: int,
+             told: Told) -> dict:  # fmt: skip
+    """reach-eval's results by learner (those of options.learners, or both) and number of samples: a
+    run of a sweep, which makes the study anew."""
+    (study,) = (s for s in studies_of(options.group, options.data) if s.name == name)
+    # Workers elsewhere have no folder of this machine.
+    kept = KeptDraws(None if options.scheduler else options.out / "draws", options.resume)
+    return results_of(study, draw, seeds[draw], options, kept)
+
+
+def results_of(
     study: BodyStudy, draw: int, seed: int, options: argparse.Namespace, kept: KeptDraws
 ) -> dict:
-    """reach-eval's results by learner (those asked for, or both) and number of samples."""
     rng = np.random.default_rng([zlib.crc32(study.name.encode()), seed])
     numbered = [draw] if study.numbered else []
     counts = sorted({bar.at for bar in study.bars})
@@ -200,27 +211,18 @@ def _write(out: Path, summary: dict) -> None:
     (out / f"{name}.html").write_text(_page(summary))
 
 
-def _draws_of(study: BodyStudy, seeds: list[int], options: argparse.Namespace, kept: KeptDraws,
-              progress: Progress) -> list[dict]:  # fmt: skip
-    draws = min(options.draws, study.most_draws or options.draws)
-    found = []
-    with ThreadPoolExecutor(1 if study.alone else options.jobs) as pool:
-        for one in pool.map(lambda k: evaluate(study, k, seeds[k], options, kept), range(draws)):
-            found.append(one)
-            progress.update(study.name, len(found) / draws, f"{len(found)} of {draws} draws")
-    return found
-
-
-def run(options: argparse.Namespace) -> list[dict]:
+def run(options: argparse.Namespace, sweep: Sweep) -> list[dict]:
     chosen = chosen_of(options)
     seeds = seeds_of(options.commit or commit(), options.draws)
     summary = {"group": options.group, "commit": options.commit or commit(), "seeds": seeds,
                "quick": options.quick, "param": options.param, "rows": []}  # fmt: skip
     print(f"accuracy: seeds of commit {summary['commit'][:12]}: {', '.join(map(str, seeds))}")
     progress = Progress({s.name: max(bar.at for bar in s.bars) for s in chosen})
-    kept = KeptDraws(options.out / "draws", options.resume)
     for study in chosen:
-        found = _draws_of(study, seeds, options, kept, progress)
+        draws = min(options.draws, study.most_draws or options.draws)
+        progress.update(study.name, 0.0, f"{draws} draws")
+        found = sweep.map(study.name, partial(evaluate, options, seeds, study.name), draws,
+                          progress, at_once=1 if study.alone else None)  # fmt: skip
         rows = rows_of(study, found)
         summary["rows"] += rows
         missed = [row["metric"] for row in rows if row["met"] is False]

@@ -17,9 +17,10 @@ def digest(parts: list[object], files: list[Path]) -> str:
 
 
 class KeptDraws:
-    """In `folder`. Without `resume` what is there is not read, only replaced."""
+    """In `folder`; nothing is kept where there is none. Without `resume` what is there is not read,
+    only replaced."""
 
-    def __init__(self, folder: Path, resume: bool):
+    def __init__(self, folder: Path | None, resume: bool):
         self._folder, self._resume = folder, resume
 
     def key(self, parts: list[object], config: Path) -> str:
@@ -28,8 +29,10 @@ class KeptDraws:
 
     def read(self, name: str, key: str) -> dict | None:
         """reach-eval's results by number of samples; None where they are not those of `key`."""
+        if not self._resume or self._folder is None:
+            return None
         path = self._folder / f"{name}.json"
-        if not self._resume or not path.exists():
+        if not path.exists():
             return None
         try:
             kept = json.loads(path.read_text())
@@ -40,6 +43,8 @@ class KeptDraws:
         return {int(at): result for at, result in kept["results"].items()}
 
     def write(self, name: str, key: str, results: dict) -> None:
+        if self._folder is None:
+            return
         self._folder.mkdir(parents=True, exist_ok=True)
         path = self._folder / f"{name}.json"
         path.write_text(json.dumps({"key": key, "results": results}) + "\n")

@@ -57,6 +57,14 @@ class Streams(unittest.TestCase):
             self.assertLess(wrong, 1e-7)
 
 
+class Arguments(unittest.TestCase):
+    def test_what_a_cluster_does_not_have_is_refused(self):
+        for words in (["--only", "vision"], ["--only", "body", "--data", "."]):
+            with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
+                accuracy.parse([*words, "--scheduler", "127.0.0.1:8786"])
+            self.assertIn("--scheduler", said.getvalue())
+
+
 class Verdicts(unittest.TestCase):
     def test_a_bar_is_a_greatest_value_or_a_distance_from_a_target(self):
         self.assertTrue(Bar("", 1, len, 2.0).met(2.0))

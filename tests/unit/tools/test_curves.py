@@ -85,11 +85,12 @@ class Picture(unittest.TestCase):
 
     def test_the_command_leaves_picture_and_numbers(self):
         with tempfile.TemporaryDirectory() as name, \
-             mock.patch.object(study, "draw", lambda _: self.draws[0]), \
+             mock.patch.object(accuracy, "Sweep") as sweep, \
              mock.patch.object(picture, "LEARNERS", ONE_TOOL["LEARNERS"]), \
              mock.patch.object(study, "LEARNERS", ONE_TOOL["LEARNERS"]), \
              mock.patch.object(picture, "PANELS", self.panels), \
              contextlib.redirect_stdout(io.StringIO()) as said:  # fmt: skip
+            sweep().__enter__().map = lambda *_: self.draws
             self.assertEqual(accuracy.main(["--curves", "--draws", "1", "--out", name]), 0)
             numbers = json.loads((Path(name) / "curves.json").read_text())
             root = ElementTree.parse(Path(name) / "curves.svg").getroot()

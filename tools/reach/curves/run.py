@@ -2,9 +2,11 @@
 
 import argparse
 import json
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from ..progress import Progress
+from ..sweep.run_process import Told
+from ..sweep.sweep import Sweep
 from . import picture, study
 
 
@@ -23,10 +25,14 @@ def table(draws: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def run(options: argparse.Namespace) -> Path:
+def draw(number: int, told: Told) -> dict:
+    """A run of a sweep."""
+    return study.draw(number)
+
+
+def run(options: argparse.Namespace, sweep: Sweep) -> Path:
     """Returns where the picture is."""
-    with ThreadPoolExecutor(options.jobs) as pool:
-        draws = list(pool.map(study.draw, range(options.draws)))
+    draws = sweep.map("draw", draw, options.draws, Progress({}))
     options.out.mkdir(parents=True, exist_ok=True)
     numbers = {"hand": study.HAND, "tube": study.TUBE, "draws": draws}
     (options.out / "curves.json").write_text(json.dumps(numbers, indent=1) + "\n")

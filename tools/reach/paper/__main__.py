@@ -7,22 +7,22 @@ again while its inputs stay the same. What remains in OUT: report.html, report.p
 import argparse
 import os
 import sys
+from functools import partial
 from pathlib import Path
 
-from ..bus import NoAnswerError
 from ..command_line import Parser
-from ..experiment import ExperimentError
-from ..processes import ProcessDiedError
 from ..programs import ROOT
 from ..progress import Progress
 from ..run_folder import claimed
 from ..session import Stop
-from . import explore, icub, jobs, kobian, perform, practice, report, rows
+from ..sweep import add_options, count
+from ..sweep.cluster import ClusterError
+from ..sweep.sweep import Job, Sweep
+from . import explore, icub, kobian, perform, practice, report, rows
 from .plan import LEARNER_NAMES, Run, is_complete, learners_of, plan, version
 from .replay import ReplayError
 
 GROUPS = (kobian, icub, explore.ICUB, explore.KOBIAN, practice.WITHOUT, practice.WITH)
-FAILURES = (ExperimentError, NoAnswerError, ProcessDiedError, ReplayError, OSError)
 EXPERIMENTS = tuple(dict.fromkeys(name for group in GROUPS for name in group.EXPERIMENTS))
 
 
@@ -34,7 +34,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     add = parser.add_argument
     add("--only", type=_experiments, default=EXPERIMENTS, metavar="K3[,K4]",
         help=f"only these experiments, of {','.join(EXPERIMENTS)}; default all")  # fmt: skip
-    add("--seeds", type=_count, metavar="N",
+    add("--seeds", type=count, metavar="N",
         help="number of seeds, each a run; default 5, with --quick 1")  # fmt: skip
     add("--learner", nargs="+", choices=LEARNER_NAMES, default=LEARNER_NAMES,
         help="body (ours, which ships), polynomial, linear (IMLE as published), lwpr;"
@@ -42,8 +42,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     add("--quick", action="store_true", help="few samples and one seed: a smoke check")
     add("--any-version", action="store_true",
         help="keep complete runs that other versions of the programs made")  # fmt: skip
-    add("--jobs", type=_count, default=len(os.sched_getaffinity(0)), metavar="N",
-        help="runs at once, each on its own processor; default: one per processor")  # fmt: skip
+    add_options(parser, len(os.sched_getaffinity(0)), "runs")
     add("--out", type=Path, default=ROOT / "out/paper",
         help="folder of the results; default %(default)s")  # fmt: skip
     options = parser.parse_args(arguments)
@@ -58,13 +57,6 @@ def _experiments(text: str) -> tuple[str, ...]:
         if name not in EXPERIMENTS:
             raise argparse.ArgumentTypeError(f"{name}: one of {','.join(EXPERIMENTS)} is wanted")
     return names
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if not 1 <= value <= 1000:
-        raise argparse.ArgumentTypeError("a number from 1 to 1000 is wanted")
-    return value
 
 
 def folder_of(options: argparse.Namespace, run: Run) -> Path:
@@ -83,22 +75,20 @@ def do_missing(options: argparse.Namespace, runs: list[Run], stop: Stop) -> bool
         for run in missing for phase, seconds in run.group.weights(run.settings).items()
     })  # fmt: skip
 
-    def task(run: Run, told: jobs.Told) -> str | None:
-        folder, lacks = folder_of(options, run), None
-        if run in missing:
-            lacks = perform.perform(run, folder, present, told, stop)
-        stop.release()
-        perform.measure(run, folder)
-        return lacks
-
-    todo = [run for run in runs if run in missing or not perform.measured(folder_of(options, run))]
-    side_by_side = jobs.Jobs(options.jobs, task, FAILURES)
-    failed = side_by_side.do(todo, progress, stop)
-    for remark in sorted(side_by_side.remarks):
+    # What is complete lies here, and is measured here.
+    todo = [run for run in runs if run in missing
+            or not (options.scheduler or perform.measured(folder_of(options, run)))]  # fmt: skip
+    if not todo:
+        return True
+    jobs = [Job(run.name, partial(perform.do, run, present if run in missing else None),
+                folder_of(options, run)) for run in todo]  # fmt: skip
+    with Sweep(options.jobs, stop, options.scheduler, perform.FAILURES) as sweep:
+        outcome = sweep.do(jobs, progress, network=True)
+    for remark in sorted(filter(None, set(outcome.results.values()))):
         print(f"paper: {remark}", file=sys.stderr)
-    for name, why in failed.items():
+    for name, why in outcome.failed.items():
         print(f"paper: {name}: {why}; complete runs are kept", file=sys.stderr)
-    return not failed
+    return not outcome.failed
 
 
 def _asked(options: argparse.Namespace) -> list[rows.Row]:
@@ -160,6 +150,9 @@ def work(options: argparse.Namespace, runs: list[Run]) -> int:
         print("\npaper: stopped; the same command goes on with the runs that are missing",
               file=sys.stderr)  # fmt: skip
         status = 130
+    except ClusterError as error:
+        print(f"paper: {error}; complete runs are kept", file=sys.stderr)
+        status = 1
     stop.release()
     try:
         conclude(options, runs)

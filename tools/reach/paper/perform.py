@@ -8,14 +8,29 @@ from pathlib import Path
 import numpy as np
 
 from .. import recording, summary
-from ..experiment import Experiment
+from ..bus import NoAnswerError
+from ..experiment import Experiment, ExperimentError
+from ..processes import ProcessDiedError
 from ..progress import Part
 from ..record import read_log
 from ..session import Stop, session
-from . import packed, rows
+from . import packed, replay, rows
 from .plan import Run, described, digest
 
 _HERE = Path(__file__).parent
+
+
+# Ways of a run to fail.
+FAILURES = (ExperimentError, NoAnswerError, ProcessDiedError, replay.ReplayError, OSError)
+
+
+def do(run: Run, version: str | None, told: Part, folder: Path) -> str | None:
+    """Performs it, where a version is given, and measures it: the task of a sweep."""
+    stop = Stop()
+    lacks = perform(run, folder, version, told, stop) if version else None
+    stop.release()
+    measure(run, folder)
+    return lacks
 
 
 def perform(run: Run, folder: Path, version: str, progress: Part, stop: Stop) -> str | None:

@@ -9,6 +9,7 @@ import json
 import subprocess
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -31,9 +32,9 @@ class Run:
     def name(self) -> str:
         return f"{self.group.NAME}-{self.learner}-{self.seed}"
 
-    @property
+    @cached_property
     def settings(self) -> dict:
-        """Sizes of the protocol."""
+        """Sizes of the protocol. Kept, so that they go with the run to where it is done."""
         return self.group.settings(self.quick, self.learner)
 
     @property
