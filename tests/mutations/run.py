@@ -1,5 +1,5 @@
-"""Shows that tests can fail: puts one deliberate fault at a time into the tree, as this program alone
-sees it, and demands that the named test notices it. The tree and its build stay as they are.
+"""Shows that tests can fail: puts one deliberate fault at a time into the tree, as this program
+alone sees it, and demands that the named test notices it. The tree and its build stay as they are.
 
 Each *.toml beside this file holds entries
     [[mutation]]
@@ -28,7 +28,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 # A random test may miss a fault now and then; whether it did must not change from run to run. And
-# whether the tree was altered is not looked at, since what names the version would be built each time.
+# git is not asked whether the tree was altered: what names the version would be built each time.
 SETTINGS = {"REACH_TEST_SEED": "1", "GIT_DIR": "/nowhere"}
 # A fault may leave something unused, which is not what must notice it.
 MAY_BE_UNUSED = '#pragma GCC diagnostic warning "-Wunused"\n#line 1\n'

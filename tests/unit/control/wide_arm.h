@@ -3,7 +3,7 @@
 #define TESTS_UNIT_CONTROL_WIDE_ARM_H
 
 #include "daemon/config/config.h"
-#include "learner/body/chain.h"
+#include "learner/body/chain/chain.h"
 
 #include <stdint.h>
 
