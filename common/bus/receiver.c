@@ -6,6 +6,8 @@
 
 static const int poll_ms = 100; /* how soon the thread sees that it is to end */
 static const int64_t say_again_us = 1000000;
+static const int64_t held_us = 200000;   /* so long without a turn, it was not running */
+static const int64_t backlog_us = 50000; /* what it reads so soon after may have waited */
 
 /* A bus that has failed for good fails at once, and the thread may have a priority over all others:
  * it tries again now and then. */
@@ -26,10 +28,23 @@ static void *receive(void *user)
     int64_t said = 0; /* when the log was last told of a failure, us */
 
     pthread_setname_np(pthread_self(), receiver->name);
-    while (!atomic_load_explicit(&receiver->ending, memory_order_relaxed))
+    while (!atomic_load_explicit(&receiver->ending, memory_order_relaxed)) {
+        receiver->turned = bus_monotonic_us();
         if (lcm_handle_timeout(receiver->lcm, poll_ms) < 0)
             rest_from_failure(&said);
+    }
     return NULL;
+}
+
+int64_t bus_receiver_arrived(struct bus_receiver *receiver)
+{
+    int64_t now = bus_monotonic_us();
+
+    if (now - receiver->turned > held_us) {
+        receiver->held_from = receiver->turned + poll_ms * 1000;
+        receiver->held_to = now + backlog_us;
+    }
+    return now < receiver->held_to ? receiver->held_from : now;
 }
 
 int bus_receiver_start(struct bus_receiver *receiver, lcm_t *lcm, const char *name, int priority,
@@ -37,6 +52,8 @@ int bus_receiver_start(struct bus_receiver *receiver, lcm_t *lcm, const char *na
 {
     receiver->lcm = lcm;
     receiver->name = name;
+    receiver->turned = bus_monotonic_us();
+    receiver->held_from = receiver->held_to = 0;
     atomic_store_explicit(&receiver->ending, false, memory_order_relaxed);
     return thread_start(&receiver->thread, priority, receive, receiver, error, error_size);
 }

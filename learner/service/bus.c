@@ -1,7 +1,6 @@
 #include "learner/service/bus.h"
 
 #include "common/base/mailbox.h"
-#include "common/bus/open.h"
 #include "common/bus/receiver.h"
 #include "learner/bus/body_answer.h"
 #include "learner/bus/finder_channels.h"
@@ -12,8 +11,6 @@
 #define QUEUE 256 /* requests; a power of two */
 #define BODIES 4
 #define UNTAKEN 512 /* messages that LCM itself keeps; what comes in one burst */
-
-static const int64_t lay_most_us = 60000000; /* a clock that was set says more */
 
 struct arrival {
     int64_t at; /* us, monotonic */
@@ -36,19 +33,10 @@ size_t service_bus_memory(void)
            mailbox_memory(sizeof(struct received_body), BODIES);
 }
 
-/* The kernel says by the wall clock when a message came; this thread may have been held up since.
- */
-static int64_t arrived_at(const lcm_recv_buf_t *message)
-{
-    int64_t lay = bus_utime() - message->recv_utime;
-
-    return bus_monotonic_us() - (lay > 0 && lay < lay_most_us ? lay : 0);
-}
-
 static void on_request(const lcm_recv_buf_t *message, const char *channel, void *user)
 {
     struct service_bus *bus = user;
-    struct arrival arrival = {.at = arrived_at(message)};
+    struct arrival arrival = {.at = bus_receiver_arrived(&bus->receiver)};
     const int size = (int)message->data_size;
 
     (void)channel;

@@ -7,9 +7,9 @@ import shutil
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 
 import markdown
-from mutations.run import copy_tree
 from scratch import BUILD, SOURCE
 
 WORK = BUILD / "extend"
@@ -23,6 +23,15 @@ def run(*command, **options) -> str:
     if done.returncode != 0:
         raise AssertionError(f"{command}: {done.stdout[-3000:]}{done.stderr[-3000:]}")
     return done.stdout
+
+
+def copy_tree(source: Path, copy: Path) -> None:
+    """What git would take along, as it is now."""
+    listed = run("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", cwd=source)
+    for name in listed.split("\0"):
+        if name and (source / name).is_file():
+            (copy / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source / name, copy / name)
 
 
 def carry_out(page: markdown.Page) -> int:
@@ -58,6 +67,7 @@ class Extend(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         WORK.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(FRESH, ignore_errors=True)
         copy_tree(SOURCE, FRESH)
         cls.blocks = carry_out(markdown.read(SOURCE / "docs/howto/extend.md"))
         bring_up_to_date()

@@ -108,7 +108,7 @@ class HowTo(unittest.TestCase):
         self.run_all(text)
         result = json.loads((self.folder / "report.json").read_text())["results"][0]
         self.assertEqual((result["experts"], round(result["test"]["asked"]["solutions"], 2)),
-                         (2, 1.25))  # fmt: skip
+                         (2, 2.0))  # fmt: skip
 
     def test_the_scale_of_wide_joints(self):
         page = (SOURCE / "docs/howto/tuning.md").read_text()

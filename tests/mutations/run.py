@@ -19,7 +19,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 import tomllib
 from collections.abc import Iterator
@@ -27,9 +26,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# A random test may miss a fault now and then; whether it did must not change from run to run. And
-# git is not asked whether the tree was altered: what names the version would be built each time.
-SETTINGS = {"REACH_TEST_SEED": "1", "GIT_DIR": "/nowhere"}
+# A random test may miss a fault now and then; whether it did must not change from run to run.
+FIXED_SEED = {"REACH_TEST_SEED": "1"}
+# Git is not asked whether the tree was altered: what names the version would be built each time.
+NO_GIT = {"GIT_DIR": "/nowhere"}
 # A fault may leave something unused, which is not what must notice it.
 MAY_BE_UNUSED = '#pragma GCC diagnostic warning "-Wunused"\n#line 1\n'
 
@@ -77,26 +77,30 @@ class Workshop:
         self.source, self.build = source, build
         log.parent.mkdir(parents=True, exist_ok=True)
         self.log = log.open("w")
-        self.memory = Path(tempfile.mkdtemp(prefix="reach-mutations-"))
+        self.memory = build / "mutations"
+        self.memory.mkdir(exist_ok=True)
         self.must("mount", "-t", "tmpfs", "tmpfs", self.memory)
         self.layers = [source]  # the uppermost first
+        self.mounted = 0
         listing = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True,
                                  capture_output=True, text=True).stdout  # fmt: skip
         self.targets = {line.split(":")[0] for line in listing.splitlines()}
 
     @contextlib.contextmanager
-    def layer(self, name: str) -> Iterator[Path]:
+    def layer(self) -> Iterator[Path]:
         """While it lasts, all that is written below the source goes to this folder."""
-        upper, scratch = self.memory / name, self.memory / "scratch"
-        for folder in (upper, scratch):
-            folder.mkdir()
+        self.mounted += 1
+        upper, scratch = (self.memory / f"{name}-{self.mounted}" for name in ("changes", "scratch"))
+        upper.mkdir()
+        scratch.mkdir()
         places = f"lowerdir={':'.join(map(str, self.layers))},upperdir={upper},workdir={scratch}"
         self.must("mount", "-t", "overlay", "-o", places, "overlay", self.source)
         try:
             yield upper
         finally:
-            self.must("umount", self.source)
-            shutil.rmtree(scratch)
+            # A program that a fault left behind may still be in it.
+            self.must("umount", "--lazy", self.source)
+            shutil.rmtree(scratch, ignore_errors=True)
 
     def keep(self, upper: Path) -> None:
         """What was written there lies below the layers to come."""
@@ -105,23 +109,23 @@ class Workshop:
     def must(self, *command) -> None:
         subprocess.run([str(word) for word in command], check=True)
 
-    def run(self, *command) -> bool:
+    def run(self, *command, **settings: str) -> bool:
         self.log.write(f"$ {' '.join(map(str, command))}\n")
         self.log.flush()
         return subprocess.run(command, stdout=self.log, stderr=self.log, cwd="/",
-                              env=SETTINGS | os.environ).returncode == 0  # fmt: skip
+                              env=settings | os.environ).returncode == 0  # fmt: skip
 
     def make(self, mutation: Mutation) -> bool:
         """Builds what the test needs."""
         own = mutation.killed_by if mutation.killed_by in self.targets else "all"
-        return self.run("ninja", "-C", self.build, *(mutation.targets or [own]))
+        return self.run("ninja", "-C", self.build, *(mutation.targets or [own]), **NO_GIT)
 
     def passes(self, test: str) -> bool:
         return self.run("ctest", "--test-dir", self.build, "-R", f"^{test}$", "--no-tests=error",
-                        "--output-on-failure")  # fmt: skip
+                        "--output-on-failure", **FIXED_SEED)  # fmt: skip
 
     def outcome(self, mutation: Mutation) -> str:
-        with self.layer("fault") as upper:
+        with self.layer() as upper:
             path = self.source / mutation.file
             changed = path.read_text().replace(mutation.old, mutation.new)
             if path.suffix in (".c", ".cc", ".h"):
@@ -129,7 +133,7 @@ class Workshop:
             path.write_text(changed)
             made = self.make(mutation)
             survived = made and self.passes(mutation.killed_by)
-        shutil.rmtree(upper)
+        shutil.rmtree(upper, ignore_errors=True)
         return "does not compile" if not made else "SURVIVED" if survived else "killed"
 
 
@@ -174,7 +178,7 @@ def main() -> int:
 
 def try_all(shop: Workshop, mutations: list[Mutation]) -> int:
     healthy = {}
-    with shop.layer("healthy") as built:
+    with shop.layer() as built:
         for test, mutation in sorted({m.killed_by: m for m in mutations}.items()):
             healthy[test] = shop.make(mutation) and shop.passes(test)
             if not healthy[test]:

@@ -133,5 +133,6 @@ int main(void)
         a_file_is_written_on,
     };
 
-    return SUITE_RUN("log", tests);
+    /* What waits for a reader who does not read must be noticed, and soon. */
+    return suite_run("log", tests, sizeof tests / sizeof tests[0], 10);
 }

@@ -41,9 +41,27 @@ START_TEST(a_failed_bus_keeps_no_processor_and_no_log_busy)
 }
 END_TEST
 
+START_TEST(what_waited_for_a_process_that_was_stopped_came_before)
+{
+    const int64_t now = bus_monotonic_us(), second = 1000000;
+    struct bus_receiver receiver = {.turned = now - second / 20};
+
+    ck_assert_int_ge(bus_receiver_arrived(&receiver), now);
+    receiver.turned = now - second;
+    ck_assert_int_lt(bus_receiver_arrived(&receiver), now - second / 2);
+    receiver.turned = bus_monotonic_us(); /* its next message waited as long */
+    ck_assert_int_lt(bus_receiver_arrived(&receiver), now - second / 2);
+    sleep_until((bus_monotonic_us() + second / 10) * 1000);
+    ck_assert_int_gt(bus_receiver_arrived(&receiver), now);
+}
+END_TEST
+
 int main(void)
 {
-    const TTest *const tests[] = {a_failed_bus_keeps_no_processor_and_no_log_busy};
+    const TTest *const tests[] = {
+        a_failed_bus_keeps_no_processor_and_no_log_busy,
+        what_waited_for_a_process_that_was_stopped_came_before,
+    };
 
     return SUITE_RUN("receiver", tests);
 }

@@ -103,7 +103,7 @@ END_TEST
 START_TEST(evidence_is_kept)
 {
     const char *name = NULL;
-    unsigned char damaged[4096];
+    unsigned char damaged[8192];
     unsigned char *bytes;
     size_t size = 0;
     int64_t stored;

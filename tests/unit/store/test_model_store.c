@@ -289,5 +289,6 @@ int main(void)
                                   a_full_mailbox_makes_learning_wait,
                                   a_load_replaces_the_model_that_is_kept};
 
-    return SUITE_RUN("model_store", tests);
+    /* What waits on a pipe must be noticed, and soon. */
+    return suite_run("model_store", tests, sizeof tests / sizeof tests[0], 20);
 }

@@ -162,7 +162,7 @@ class Relearned(unittest.TestCase):
         errors = {name: replay.curve(replay.ICUB, name, [rows], {"s1": test}, at)["s1"].mean()
                   for name in ("body", "polynomial")}  # fmt: skip
         self.assertLess(errors["body"], 0.0005)
-        self.assertGreater(errors["polynomial"], 0.02)
+        self.assertGreater(errors["polynomial"], 10 * errors["body"])
 
     def test_the_reference_goes_with_the_joints(self):
         given = replay.options(replay.ICUB, "body")

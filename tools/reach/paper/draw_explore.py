@@ -6,7 +6,7 @@ from ..figures import COLOURS, MARKERS, canvas
 from .drawing import Data, Shown, band, legend
 
 _STYLES = {
-    kind: {"color": COLOURS[ball], "marker": MARKERS[ball], "ms": 4, "markevery": None}
+    kind: {"color": COLOURS[ball], "marker": MARKERS[ball], "markersize": 4, "markevery": None}
     for kind, ball in (("explored", "hand"), ("babbled", "tool"))
 }
 _WORDS = {"explored": "goals of its own, nothing babbled", "babbled": "babbling"}
