@@ -23,17 +23,12 @@ static const char *lie_text(int trouble)
     }
 }
 
-bool trouble_text(const reach_status_t *status, int kind, char *text, size_t size)
+/* The same of what the learner did with it; false when it is something else. */
+static bool learning_text(const reach_status_t *status, int trouble, char *text, size_t size)
 {
     const double degree = 3.14159265358979323846 / 180;
-    const char *lie = lie_text(status->troubles & 1 << kind);
 
-    if (lie) {
-        snprintf(text, size, "%s; meanwhile nothing is learned (%lld samples so far)", lie,
-                 (long long)status->frozen_samples);
-        return true;
-    }
-    switch (status->troubles & 1 << kind) {
+    switch (trouble) {
     case REACH_STATUS_T_MANY_FULL:
         snprintf(text, size,
                  "over 5 %% of the samples were dropped: all %d experts are in use (learner.p0, "
@@ -66,4 +61,16 @@ bool trouble_text(const reach_status_t *status, int kind, char *text, size_t siz
     default:
         return false;
     }
+}
+
+bool trouble_text(const reach_status_t *status, int kind, char *text, size_t size)
+{
+    const int trouble = status->troubles & 1 << kind;
+    const char *lie = lie_text(trouble);
+
+    if (!lie)
+        return learning_text(status, trouble, text, size);
+    snprintf(text, size, "%s; meanwhile nothing is learned (%lld samples so far)", lie,
+             (long long)status->frozen_samples);
+    return true;
 }

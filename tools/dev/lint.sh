@@ -48,7 +48,7 @@ check_size() {
 check_tidy() {
     local files
     # The generated headers that the sources include.
-    cmake --build build --target reach_lcmtypes reach_lcmtypes_cpp_files >build/lint.log 2>&1 || {
+    cmake --build build --target reach_lcmtypes reach_lcmtypes_cpp_files iiwa_lcmtypes >build/lint.log 2>&1 || {
         cat build/lint.log
         return 1
     }
