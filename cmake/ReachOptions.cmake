@@ -15,6 +15,10 @@ endif()
 add_compile_options($<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:RelWithDebInfo>>:-g1>)
 # No fused multiply-add chosen by the compiler: the same source gives the same bits everywhere.
 add_compile_options(-ffp-contract=off -fstack-protector-strong)
+# Eigen asks for fused ones itself where the processor has them, which every arm64 does.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-U__ARM_FEATURE_FMA>)
+endif()
 # For C alone. With it GCC 14 forgets stores in C++: an Eigen expression handed on by address is read
 # before it is written (test_simrobot_eyes, the capsules' visibility). GCC 12 does not.
 add_compile_options($<$<COMPILE_LANGUAGE:C>:-fno-math-errno>)

@@ -23,7 +23,6 @@ make_tree() {
     local suite links
     suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
     rm -rf "$tree" "$tree.new"
-    mkdir -p "$(dirname "$tree")"
     mmdebstrap --variant=extract --architectures=arm64 --include="$1" "$suite" "$tree.new"
     # Links that start at the root would lead to this machine's own libraries.
     links=$tree.new/usr/lib/$triple
@@ -45,6 +44,7 @@ done
 packages=$(wanted_packages | paste -sd,)
 if [ "$(cat "$tree/etc/reach-packages" 2>/dev/null)" != "$packages" ]; then
     echo "arm64: making $tree" >&2
+    mkdir -p build/machines
     make_tree "$packages" >"$tree.log" 2>&1 || {
         tail "$tree.log" >&2
         fail "no tree; $tree.log tells all"
