@@ -16,6 +16,7 @@ from reach.progress import Progress
 # All that a replay needs, and no images.
 CHANNELS = "ROBOT_STATE|ROBOT_COMMAND|MARKER|END_EFFECTOR|REACH_.*"
 IDLE = reach.status_t.IDLE
+FAULT = reach.status_t.FAULT
 IN_REACH = (0.30, -0.15, 0.62)  # m, of the iCub-like robot
 
 
@@ -71,8 +72,10 @@ def real_time(out: Path, models: Path | None = None) -> None:
         programs.start(processes, out, seed=2, robot="icub", realtime=True, channels=CHANNELS,
                        configurations=[gains], settings=settings)  # fmt: skip
         bus = _ready(processes, out, "icub")
-        bus.wait(lambda: bus.status and bus.status.state == IDLE, "reachd", lambda: None)
+        bus.wait(lambda: bus.status and bus.status.state in (IDLE, FAULT), "reachd", lambda: None)
         robot = _Asker(bus)
+        if bus.status.state == FAULT:  # a busy machine held the loop up
+            robot.ask(reach.request_t.RESET_FAULT)
         robot.ask(reach.request_t.EXPLORE, count=100000, seed=3, learn=1)
         robot.clock.advance(1.0)
         gains.write_text("task: {gain: 1.5}\nexplore: {noise: 8}\n")
