@@ -10,10 +10,10 @@ from reach import programs
 from reach.bus import Bus
 from reach.clock import HeldClock
 from reach.experiment import Experiment
-from reach.messages import reach
 from reach.processes import Processes
 from reach.progress import Progress
 from reach.record import read_log
+from reached import errors
 
 PHASES = ("learn hand", "hand", "learn stick", "stick", "hand again", "learn", "cube", "explore")
 PERIOD = 3.0  # for each corner, s
@@ -25,17 +25,8 @@ def cube(centre: tuple) -> np.ndarray:
     return np.array(centre) + EDGE / 2 * np.array(signs)
 
 
-def errors(record, phase: dict) -> np.ndarray:
-    """True distance to each target of a phase at the end of its time, m."""
-    status, truth = record["REACH_STATUS"], record["SIM_TRUTH"]
-    status = status[(status["request_seq"] == phase["request_seq"])
-                    & (status["behaviour"] == reach.status_t.REACH)]  # fmt: skip
-    result = []
-    for index, target in enumerate(phase["targets"]):
-        last = status[status["progress"] == index][-1]["utime"]
-        at = truth[(truth["utime"] == last) & (truth["exposure"] == 0)][-1]
-        result.append(np.linalg.norm(at["marker"] - target))
-    return np.array(result)
+def in_metres(truth) -> np.ndarray:
+    return truth["marker"]
 
 
 class Cartesian(unittest.TestCase):
@@ -54,7 +45,11 @@ class Cartesian(unittest.TestCase):
                 self.assertEqual(bus.status.bad_inputs, 0)
                 self.assertEqual(bus.status.gated, 0)
             record = read_log(out / "run.lcmlog")
-        return [(phase["name"], errors(record, phase)) for phase in phases if "targets" in phase]
+        return [
+            (phase["name"], errors(record, phase, in_metres))
+            for phase in phases
+            if "targets" in phase
+        ]
 
     def assert_reached(self, results: list, most: float) -> None:
         for name, distances in results:

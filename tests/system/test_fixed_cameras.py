@@ -14,6 +14,7 @@ from reach.messages import reach
 from reach.processes import Processes
 from reach.progress import Progress
 from reach.record import read_log
+from reached import errors
 
 ROBOT = "watched"
 PHASES = ("learn hand", "hand", "learn stick", "stick", "hand again")
@@ -24,18 +25,8 @@ def around(middle: np.ndarray) -> np.ndarray:
     return middle + np.array([(-40.0, -30.0, 0.0), (40.0, 30.0, 0.0)])
 
 
-def errors(record, phase: dict) -> np.ndarray:
-    """True distance in the images to each target of a phase at the end of its time, px."""
-    status, truth = record["REACH_STATUS"], record["SIM_TRUTH"]
-    status = status[(status["request_seq"] == phase["request_seq"])
-                    & (status["behaviour"] == reach.status_t.REACH)]  # fmt: skip
-    result = []
-    for index, target in enumerate(phase["targets"]):
-        last = status[status["progress"] == index][-1]["utime"]
-        at = truth[(truth["utime"] == last) & (truth["exposure"] == 0)][-1]
-        ball = np.array([at["u_right"], at["v_right"], at["disparity"]])
-        result.append(np.linalg.norm(ball - target))
-    return np.array(result)
+def in_images(truth) -> np.ndarray:
+    return np.array([truth["u_right"], truth["v_right"], truth["disparity"]])
 
 
 def seen(bus: Bus) -> np.ndarray:
@@ -62,7 +53,7 @@ class FixedCameras(unittest.TestCase):
             record = read_log(out / "run.lcmlog")
         for phase in phases:
             if "targets" in phase:
-                distances = errors(record, phase)
+                distances = errors(record, phase, in_images)
                 with self.subTest(phase["name"]):
                     self.assertLess(distances.max(), 3.0, distances)
 

@@ -223,12 +223,7 @@ static void kill_finder(struct searching *searching)
     trial_live(trial, bus_monotonic_us() + answer_us, answered_again);
     if (!answered_again(trial))
         trial_fail(trial, "a finder that was killed and started again has not answered");
-    if (reachd_process_end(&trial->daemon, SIGTERM) != 0)
-        trial_fail(trial, "the daemon did not end well");
-    trial_listen_to_the_rest(trial);
-    trial->stored = trial->reference.heard;
-    if (!trial_judge(trial))
-        trial_fail(trial, "a sample was learned that was never announced");
+    trial_end_well(trial);
 }
 
 static void prepare(struct searching *searching, char **argv)

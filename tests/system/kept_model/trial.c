@@ -3,6 +3,7 @@
 #include "common/bus/open.h"
 #include "daemon/config/load.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,6 +146,16 @@ bool trial_judge(struct trial *trial)
         trial_fail(trial, "the model is another than that of an uninterrupted run");
     trial->base = samples;
     return true;
+}
+
+void trial_end_well(struct trial *trial)
+{
+    if (reachd_process_end(&trial->daemon, SIGTERM) != 0)
+        trial_fail(trial, "the daemon did not end well");
+    trial_listen_to_the_rest(trial);
+    trial->stored = trial->reference.heard;
+    if (!trial_judge(trial))
+        trial_fail(trial, "a sample was learned that was never announced");
 }
 
 void trial_copy(const char *from, const char *to)

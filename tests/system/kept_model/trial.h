@@ -50,6 +50,10 @@ void trial_listen_to_the_rest(struct trial *trial);
  * when nothing can be said: the disk has a sample whose message died with the daemon. */
 bool trial_judge(struct trial *trial);
 
+/* Ends the daemon as a service is ended: nothing at all may be lost. Ends the program where
+ * something is. */
+void trial_end_well(struct trial *trial);
+
 /* Makes directory `to` a copy of `from`; an empty `from` only removes it. */
 void trial_copy(const char *from, const char *to);
 
