@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Whether arm64 (Raspberry Pi, Jetson) computes what this machine does: builds everything for it and runs
-# unit tests and the replay of both golden logs under qemu. The libraries are those of the same Debian.
+# unit tests and the replay of the golden logs under qemu. The libraries are those of the same Debian.
 #   usage: arm64.sh [TESTS]    TESTS: a pattern for ctest -R, to run fewer
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."

@@ -13,18 +13,6 @@ static void begin(void)
     world_step();
 }
 
-static void run_request(reach_request_t request)
-{
-    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
-    world_finish(20000);
-}
-
-static void babble(int count, int64_t seed)
-{
-    run_request((reach_request_t){
-        .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = seed, .learn = 1});
-}
-
 static double error_to(const double target[3])
 {
     double position[3], sum = 0;
@@ -63,7 +51,7 @@ static double worst_reach(bool learn)
         reach_request_t request = {
             .kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 4, .learn = learn};
         place_at(shares[i], request.target[0]);
-        run_request(request);
+        world_run(request);
         worst = fmax(worst, error_to(request.target[0]));
     }
     return worst;
@@ -72,7 +60,7 @@ static double worst_reach(bool learn)
 START_TEST(every_measurement_on_the_way_is_a_sample)
 {
     begin();
-    babble(500, 1);
+    world_babble(500, 1);
     ck_assert_int_eq(world.outputs.status.progress, 500);
     ck_assert_int_eq(world.outputs.status.samples, 500);
     ck_assert_int_eq(world.outputs.status.space, REACH_STATUS_T_CARTESIAN);
@@ -87,11 +75,11 @@ START_TEST(it_reaches_with_each_tool_that_it_has_met)
     double hand, tool;
 
     begin();
-    babble(4000, 1);
+    world_babble(4000, 1);
     hand = worst_reach(false);
     ck_assert_msg(hand < 0.003, "hand: %g m", hand);
     world.robot.tool = 0.28;
-    babble(4000, 2);
+    world_babble(4000, 2);
     ck_assert_int_eq(world.outputs.status.solutions, 2);
     tool = worst_reach(false);
     ck_assert_msg(tool < 0.003, "tool: %g m", tool);
@@ -115,7 +103,7 @@ START_TEST(a_tool_is_learned_while_it_reaches)
     double tool;
 
     begin();
-    babble(3000, 1);
+    world_babble(3000, 1);
     world.robot.tool = 0.28;
     before = world.outputs.status.samples;
     worst_reach(true);
@@ -133,7 +121,7 @@ START_TEST(an_arm_that_is_not_measured_holds)
         .kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 10, .target = {{0.3, -0.1, 0.7}}};
 
     begin();
-    babble(500, 1);
+    world_babble(500, 1);
     ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
     world.robot.blind = true;
     for (int i = 0; i < 50; i++)

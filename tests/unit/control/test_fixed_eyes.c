@@ -13,18 +13,6 @@ static void begin(void)
     world_step();
 }
 
-static void run_request(reach_request_t request)
-{
-    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
-    world_finish(20000);
-}
-
-static void babble(int count, int64_t seed)
-{
-    run_request((reach_request_t){
-        .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = seed, .learn = 1});
-}
-
 /* What the cameras see when each joint is so far through its babbled range. */
 static void image_at(const double share[4], double image[3])
 {
@@ -50,7 +38,7 @@ static double worst_reach(void)
         reach_request_t request = {.kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 4};
         double image[3], sum = 0;
         image_at(shares[i], request.target[0]);
-        run_request(request);
+        world_run(request);
         fake_robot_image(&world.robot, image);
         for (int axis = 0; axis < 3; axis++)
             sum += pow(image[axis] - request.target[0][axis], 2);
@@ -62,7 +50,7 @@ static double worst_reach(void)
 START_TEST(every_image_on_the_way_is_a_sample)
 {
     begin();
-    babble(300, 1);
+    world_babble(300, 1);
     ck_assert_int_eq(world.outputs.status.samples, 300);
     ck_assert_int_eq(world.outputs.status.space, REACH_STATUS_T_FIXED);
     ck_assert_int_eq(world.outputs.command.n_joints, 4);
@@ -76,11 +64,11 @@ START_TEST(it_reaches_with_hand_and_tool)
     double error;
 
     begin();
-    babble(2000, 1);
+    world_babble(2000, 1);
     error = worst_reach();
     ck_assert_msg(error < 2, "hand: %g px", error);
     world.robot.tool = 0.28;
-    babble(2000, 2);
+    world_babble(2000, 2);
     ck_assert_int_eq(world.outputs.status.solutions, 2);
     error = worst_reach();
     ck_assert_msg(error < 2, "tool: %g px", error);
@@ -99,7 +87,7 @@ START_TEST(it_explores_from_nothing)
     double error;
 
     begin();
-    run_request(
+    world_run(
         (reach_request_t){.kind = REACH_REQUEST_T_EXPLORE, .count = 2000, .seed = 3, .learn = 1});
     error = worst_reach();
     ck_assert_msg(error < 4, "%g px", error);
@@ -110,7 +98,7 @@ END_TEST
 START_TEST(an_arm_that_is_not_seen_holds)
 {
     begin();
-    babble(300, 1);
+    world_babble(300, 1);
     ck_assert_int_eq(
         world_ask((reach_request_t){
             .kind = REACH_REQUEST_T_REACH, .n_targets = 1, .period = 10, .target = {{10, 10, 40}}}),

@@ -76,3 +76,15 @@ void world_finish(int most_ticks)
         world_step();
     }
 }
+
+void world_run(reach_request_t request)
+{
+    ck_assert_int_eq(world_ask(request), REACH_STATUS_T_ACCEPTED);
+    world_finish(20000);
+}
+
+void world_babble(int count, int64_t seed)
+{
+    world_run((reach_request_t){
+        .kind = REACH_REQUEST_T_BABBLE, .count = count, .seed = seed, .learn = 1});
+}

@@ -45,4 +45,10 @@ int world_ask(reach_request_t request);
 /* Steps until the behaviour is over; ends the test when that takes more than so many ticks. */
 void world_finish(int most_ticks);
 
+/* Asks for it, which must be accepted, and goes on until it has ended, 20,000 ticks at most. */
+void world_run(reach_request_t request);
+
+/* The same of babbling that is learned. */
+void world_babble(int count, int64_t seed);
+
 #endif
